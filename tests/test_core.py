@@ -21,7 +21,7 @@ INPUTS = 50_000     # of the fuzzer; .ci/sanitize hands in as many, under saniti
 @linux
 def test_ordinary_steps_allocate_nothing(tmp_path, core_objects):
     """One allocation makes a run and another, freed at once, its start; none moves it: counted in each built-in system,
-    formulation and integrator, corrections on and off, on motions whose rows stay far from dependent ones. Near these see below.
+    formulation and integrator, corrections on and off, on motions whose constraints stay far from dependent ones.
     """
     wrap = [f"-Wl,--wrap={name}" for name in ALLOCATING]
     program = linked(tmp_path / "allocations", ROOT / "tests" / "support" / "allocations.c", core_objects.values(), *wrap)
@@ -35,21 +35,13 @@ def test_ordinary_steps_allocate_nothing(tmp_path, core_objects):
 
 @needs_compiler
 @linux
-def test_memory_that_ends_where_rows_come_to_depend_ends_the_run(tmp_path, core_objects):
-    """Steps near a bifurcation take memory when they first need it. Wherever it is refused, the run ends there and says so, and
-    all that it had is freed. Where nothing is refused, the same run comes to its end.
-    """
+def test_runs_that_pass_bifurcations_allocate_nothing(tmp_path, core_objects):
+    """They come to their end where nothing is granted after their creation, and all that they had is freed."""
     wrap = [f"-Wl,--wrap={name}" for name in ("aligned_alloc", "free")]
     program = linked(tmp_path / "rare_memory", ROOT / "tests" / "native" / "rare_memory.c", core_objects.values(), *wrap)
-    output = subprocess.run([program], check=True, capture_output=True, text=True).stdout
-    lines = [line.split(" ", 5) for line in output.splitlines()]
-    for case in itertools.product(FORMULATIONS, ("rk4", "euler", "dormand_prince")):
-        *refused, (_, _, granted, *last) = [line for line in lines if tuple(line[:2]) == case]
-        assert int(granted) == len(refused) >= 3        # the independent rows, limits, and the detection of the crossing
-        assert last == ["0", "0", ""]
-        for *_, status, blocks, message in refused:
-            assert (status, blocks) == ("-9", "0")
-            assert re.fullmatch(r"at t = \S+ \(step \d+( of 200)?\): there is no memory for this", message)
+    lines = subprocess.run([program], check=True, capture_output=True, text=True).stdout.splitlines()
+    cases = itertools.product(FORMULATIONS, ("rk4", "euler", "dormand_prince"))
+    assert lines == [f"{formulation} {integrator} 0 0 0 " for formulation, integrator in cases]
 
 
 @needs_compiler

@@ -36,9 +36,8 @@ static const double SETTLED = 0x1p-36;  /* relative change of an acceleration wi
 static const double FALLING = 0.99;     /* ratio to the smallest change so far: a larger change is a stall */
 static const double PARALLEL = 0x1p-10; /* the largest sine of the angle between w and wdot on a branch */
 
-static void *create(zd_arena *arena, const void *of)
+zd_limits *zd_limits_create(zd_arena *arena, const zd_system *system)
 {
-    const zd_system *system = of;
     size_t nq = (size_t)system->nq, n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     zd_limits self = {
         .distance = zd_arena_doubles(arena, m),
@@ -300,8 +299,6 @@ int zd_limits_find(zd_point *point)
     zd_selection *self = point->rank->selection;
     int wanted = self->rank->max_rank - self->independent, found;
     if (!(point->system->provides & ZD_XI)) return ZD_DONE;
-    if (!self->limits) self->limits = zd_store_create(self->rank->store, create, point->system);
-    if (!self->limits) return ZD_NO_MEMORY;
     int status = zd_point_need(point, ZD_A);
     if (status) return status;
     zd_point_rate(point, point->v, self->limits->pdot);

@@ -17,7 +17,8 @@ struct zd_limits {
     int *order;                 /* (n + m,) */
 };
 
-/* Replaces the constraints lost at the point by their limits, if these exist. Memory is allocated at the first call. */
+zd_limits *zd_limits_create(zd_arena *arena, const zd_system *system);
+/* Replaces the constraints lost at the point by their limits, if these exist. */
 int zd_limits_find(zd_point *point);
 
 /* Sum of the entries of y of the independent constraints, with these shares. */

@@ -22,25 +22,8 @@
 #include "../linalg/small.h"
 #include "../point/point.h"
 
-zd_rank *zd_rank_create(zd_arena *arena, const zd_system *system, int is_large)
+static zd_selection *create_selection(zd_arena *arena, const zd_system *system)
 {
-    size_t m = (size_t)zd_constraints(system);
-    zd_rank self = {
-        .n = system->nv,
-        .m = (int)m,
-        .mh = system->mh,
-        .max_rank = (int)m,
-        .max_rank_holonomic = system->mh,
-        .is_large = is_large,
-        .start_square = zd_arena_doubles(arena, m),
-        .terms_square = zd_arena_doubles(arena, m),
-    };
-    return zd_arena_copy(arena, &self, sizeof self);
-}
-
-static void *create_selection(zd_arena *arena, const void *of)
-{
-    const zd_system *system = of;
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     zd_selection self = {
         .n = (int)n,
@@ -66,13 +49,23 @@ static void *create_selection(zd_arena *arena, const void *of)
     return zd_arena_copy(arena, &self, sizeof self);
 }
 
-int zd_rank_need_selection(zd_rank *self, const zd_system *system)
+zd_rank *zd_rank_create(zd_arena *arena, const zd_system *system, int is_large)
 {
-    if (self->selection) return ZD_DONE;
-    self->selection = zd_store_create(self->store, create_selection, system);
-    if (!self->selection) return ZD_NO_MEMORY;
-    self->selection->rank = self;
-    return ZD_DONE;
+    size_t m = (size_t)zd_constraints(system);
+    zd_rank self = {
+        .n = system->nv,
+        .m = (int)m,
+        .mh = system->mh,
+        .max_rank = (int)m,
+        .max_rank_holonomic = system->mh,
+        .is_large = is_large,
+        .start_square = zd_arena_doubles(arena, m),
+        .terms_square = zd_arena_doubles(arena, m),
+        .selection = is_large ? NULL : create_selection(arena, system),
+    };
+    zd_rank *rank = zd_arena_copy(arena, &self, sizeof self);
+    if (rank && rank->selection) rank->selection->rank = rank;
+    return rank;
 }
 
 /* ---- selection of independent constraints ---- */

@@ -30,10 +30,10 @@ struct zd_rank {
     double *start_square;   /* (m,): squared lengths of the rows at the start */
     double *terms_square;   /* (m,): squared magnitudes of the terms summed in each row; where not known, start_square */
     double *rhs;            /* (m,): right-hand side, for formulations that compute the velocity; else NULL */
-    zd_rank_monitor *monitor;          /* NULL for few constraints, or where the formulation's own factorization shows independence */
-    zd_store *store;        /* memory of the run, for what is allocated once constraints may be dependent: */
-    zd_selection *selection;    /* NULL until then */
-    zd_rank_monitor *kept;          /* monitor of the selection kept from step to step, and of its change; NULL: none */
+    zd_rank_monitor *monitor;          /* monitor of all constraints */
+    zd_store *store;        /* memory for symbolic structures, made when they are first needed */
+    zd_selection *selection;    /* NULL if is_large, as the other two then are */
+    zd_rank_monitor *kept;          /* monitor of the selection kept from step to step, and of its change */
 };
 
 /* Selection of independent constraints where some are linearly dependent. */
@@ -58,7 +58,7 @@ struct zd_selection {
     int are_awaited;        /* 1: multipliers of the point's acceleration are pending; lambda_r holds the independent ones */
     double *lambda_r;       /* (rows,) */
     double *R;              /* (independent, independent): C_r = R Q, of zd_rank_set_basis() */
-    zd_limits *limits;      /* NULL until a bifurcation requires limits */
+    zd_limits *limits;
 };
 
 /* Relative residual norm below which a row is linearly dependent on the others. It must hold both in the plain metric, which does not
@@ -90,8 +90,6 @@ static inline int zd_rank_is_of_many(const zd_system *system)
 
 /* `is_large`: no dense matrices are allocated. */
 zd_rank *zd_rank_create(zd_arena *arena, const zd_system *system, int is_large);
-/* Allocates the selection if there is none yet; ZD_NO_MEMORY on failure. */
-int zd_rank_need_selection(zd_rank *self, const zd_system *system);
 /* Selects the independent constraints at the point with the (squared) tolerance; C and M are known there. */
 void zd_rank_choose(zd_point *point, double tolerance);
 /* Selects the first `independent` constraints of row (m,), as they were selected at an earlier point. */
@@ -145,7 +143,7 @@ void zd_rank_name_rows(const zd_point *point, char *to, size_t size);
  * that are lost at a bifurcation.
  *
  * At an ordinary point a quick check shows that all are independent: the products of two rows; the pivots that a formulation computes
- * anyway; or the change since the last full check. Memory for more is allocated only if this is inconclusive. */
+ * anyway; or the change since the last full check. */
 
 enum { ZD_FEW_CONSTRAINTS = 2 };       /* largest number of constraints checked by their products */
 

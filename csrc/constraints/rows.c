@@ -10,23 +10,14 @@
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE, DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL;
 static const double ILL = ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;
 
-static void *create_kept(zd_arena *arena, const void *system)
-{
-    return zd_rank_monitor_create_selection(arena, system);
-}
-
 /* Keeps a selection of the maximum rank for later points if it is well conditioned, in the metric of M^-1 as well (`is_ill`). */
-static int keep_selection(zd_point *point, int is_ill)
+static void keep_selection(zd_point *point, int is_ill)
 {
     zd_rank *self = point->rank;
     const int is_complete = self->is_started && point->rows == self->max_rank && self->max_rank < self->m && !self->lost && !is_ill;
-    if (self->is_auxiliary) return ZD_DONE;
-    if (self->kept) self->kept->is_known = 0;
-    if (!is_complete) return ZD_DONE;
-    if (!self->kept) self->kept = zd_store_create(self->store, create_kept, point->system);
-    if (!self->kept) return ZD_NO_MEMORY;
-    zd_rank_monitor_keep_selection(self->kept, point);
-    return ZD_DONE;
+    if (self->is_auxiliary) return;
+    self->kept->is_known = 0;
+    if (is_complete) zd_rank_monitor_keep_selection(self->kept, point);
 }
 
 static int reduce(zd_point *point)
@@ -37,8 +28,6 @@ static int reduce(zd_point *point)
     int status = zd_point_need(point, ZD_M);
     if (status) return status;
     if (!zd_is_finite(zd_size_of_C(point->system), point->terms.C)) return ZD_NOT_FINITE;
-    status = zd_rank_need_selection(self, point->system);
-    if (status) return status;
     const int by_limits = self->is_started && self->allows_deficiency, was_ill_conditioned = self->was_ill_conditioned;
     self->was_ill_conditioned = 0;
     zd_rank_choose(point, by_limits ? region : SQUARED);
@@ -48,7 +37,7 @@ static int reduce(zd_point *point)
     }
     int is_deficient = self->lost || point->rows < self->max_rank;
     self->was_deficient |= is_deficient;
-    if (!status) status = keep_selection(point, self->was_ill_conditioned);
+    if (!status) keep_selection(point, self->was_ill_conditioned);
     self->was_ill_conditioned |= was_ill_conditioned;
     if (is_deficient && !self->allows_deficiency) return ZD_BIFURCATION;
     if (!status) point->known |= ZD_RANKED;
@@ -74,19 +63,6 @@ ZD_INLINE int are_doubtful(const int n, const int m, zd_rank *self, const double
 ZD_INLINE int are_few_doubtful(const int n, zd_rank *self, const double *C)
 {
     return self->m == 2 ? are_doubtful(n, 2, self, C) : are_doubtful(n, self->m, self, C);
-}
-
-static void *create_monitor(zd_arena *arena, const void *system)
-{
-    return zd_rank_monitor_create(arena, system, NULL, NULL);
-}
-
-/* Allocates the monitor, if the formulation's factorization was inconclusive. */
-static int need_monitor(zd_rank *self, const zd_system *system)
-{
-    if (self->monitor) return ZD_DONE;
-    self->monitor = zd_store_create(self->store, create_monitor, system);
-    return self->monitor ? ZD_DONE : ZD_NO_MEMORY;
 }
 
 int zd_rows_are_long(const zd_point *point)
@@ -121,7 +97,7 @@ void zd_use_all_constraints(zd_point *point)
 static int use_kept(zd_point *point)
 {
     const zd_rank_monitor *kept = point->rank->kept;
-    if (!kept || !zd_rank_monitor_is_unchanged(kept, point)) return 0;
+    if (!kept->is_known || !zd_rank_monitor_is_unchanged(kept, point)) return 0;
     zd_rank_use(point, kept->row, kept->close.m);
     point->known |= ZD_RANKED;
     return 1;
@@ -139,8 +115,6 @@ static int find_any(zd_point *point)
     if (status) return status;
     if (use_kept(point)) return ZD_DONE;
     if (self->max_rank < self->m || self->m > self->n) return reduce(point);
-    status = need_monitor(self, point->system);
-    if (status) return status;
     if (zd_rank_monitor_is_doubtful(self->monitor, point)) return reduce(point);
     zd_use_all_constraints(point);
     return ZD_DONE;

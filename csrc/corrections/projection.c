@@ -43,7 +43,7 @@ typedef struct projection {
     double *p, *v;      /* (nq,), (nv,): corrected p and v */
     double *landed;     /* (nq,): p before its correction */
     double *rhs, *x;    /* (m,), (nv,) */
-    double *from, *change;  /* (nq,), (nq,): p before an iteration, and its change so far; NULL until iterations are shortened */
+    double *from, *change;  /* (nq,), (nq,): p before an iteration, and its change so far, where iterations are shortened */
     double *identity;   /* M of the identity metric, stored as the system's M */
     void *plain;        /* solver of (13) with it */
 } projection;
@@ -78,6 +78,8 @@ static void *create(zd_arena *arena, const zd_system *system, const void *memory
         .p = zd_arena_doubles(arena, nq),
         .v = zd_arena_doubles(arena, nv),
         .landed = zd_arena_doubles(arena, nq),
+        .from = zd_arena_doubles(arena, nq),
+        .change = zd_arena_doubles(arena, nq),
         .rhs = zd_arena_doubles(arena, (size_t)zd_constraints(system)),
         .x = zd_arena_doubles(arena, nv),
         .identity = identity ? zd_arena_doubles(arena, (size_t)zd_size_of_M(system)) : NULL,
@@ -169,24 +171,6 @@ static int retreat(void *context)
     return ZD_DONE;
 }
 
-static void *create_change(zd_arena *arena, const void *of)
-{
-    const zd_system *system = of;
-    return zd_arena_doubles(arena, 2 * (size_t)system->nq);
-}
-
-/* Again from the start, with iterations that are shortened. */
-static int begin_again(position_problem *problem)
-{
-    projection *self = problem->self;
-    zd_motion *motion = problem->motion;
-    if (!self->from) self->from = zd_store_create(&motion->store, create_change, &motion->system);
-    if (!self->from) return ZD_NO_MEMORY;
-    self->change = self->from + motion->system.nq;
-    zd_point_move_position(motion->point, self->landed);
-    return ZD_DONE;
-}
-
 static int iterate(const zd_newton *newton, position_problem *problem)
 {
     zd_motion *motion = problem->motion;
@@ -210,8 +194,8 @@ static int correct_positions(projection *self, zd_motion *motion)
     newton.improve = improve_and_save;
     newton.contraction = 0;
     newton.retreat = retreat;
-    status = begin_again(&problem);
-    if (!status) status = iterate(&newton, &problem);
+    zd_point_move_position(motion->point, self->landed);    /* again from the start */
+    status = iterate(&newton, &problem);
     if (!status) motion->statistics.damped++;
     return status;
 }

@@ -23,13 +23,12 @@ zd_complement zd_complement_create(zd_arena *arena, const zd_system *system, dou
         .n = (int)n,
         .m = (int)m,
         .r = (int)r,
-        .columns = (int)r,
         .is_provided = own,
         .own = own,
         .order = zd_arena_bytes(arena, n * sizeof(int)),
         .pivots = zd_arena_bytes(arena, n * sizeof(int)),
         .memory = zd_create_dense(arena, system, m * n),
-        .D = zd_arena_doubles(arena, n * r),
+        .D = zd_arena_doubles(arena, n * n),
         .K = zd_arena_doubles(arena, own ? n * n : m * m),
         .gram = zd_arena_doubles(arena, own ? r * r : 0),
         .work = zd_arena_doubles(arena, 2 * n),
@@ -126,31 +125,13 @@ static int adopt(zd_complement *self, zd_point *point)
     return zd_cholesky(r, self->gram, self->gram) == r ? ZD_DONE : ZD_DEPENDENT_ROWS;
 }
 
-static void *create_D(zd_arena *arena, const void *of)
-{
-    const zd_complement *self = of;
-    return zd_arena_doubles(arena, (size_t)(self->n * self->n));
-}
-
-/* Allocates as many columns as there can be, once there are more than nv - m. */
-static int need_columns(zd_complement *self, const zd_point *point)
-{
-    if (self->r <= self->columns) return ZD_DONE;
-    double *D = zd_store_create(point->rank->store, create_D, self);
-    if (!D) return ZD_NO_MEMORY;
-    self->D = D;
-    self->columns = self->n;
-    return ZD_DONE;
-}
-
-static int take_rows(zd_complement *self, const zd_point *point)
+static void take_rows(zd_complement *self, const zd_point *point)
 {
     if (point->rows != self->m) self->chosen = 0;
     self->m = point->rows;
     self->C = zd_dense_C(point, self->memory);
     self->r = self->n - self->m;
     self->own = self->is_provided && zd_rank_is_full(point);
-    return need_columns(self, point);
 }
 
 int zd_complement_at(zd_complement *self, zd_point *point)
@@ -158,8 +139,9 @@ int zd_complement_at(zd_complement *self, zd_point *point)
     if (point->known & ZD_COMPLEMENTED) return ZD_DONE;
     int status = zd_point_need(point, self->is_provided ? ZD_C | ZD_COMPLEMENT : ZD_C);
     if (!status) status = zd_find_independent(point);
-    if (!status) status = take_rows(self, point);
-    if (!status) status = self->own ? adopt(self, point) : partition(self, point);
+    if (status) return status;
+    take_rows(self, point);
+    status = self->own ? adopt(self, point) : partition(self, point);
     if (!status) point->known |= ZD_COMPLEMENTED;
     return status;
 }

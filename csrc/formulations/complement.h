@@ -17,7 +17,6 @@ typedef struct zd_complement {
     int chosen;         /* 1: u has been selected */
     int *order;         /* (n,): indices of w in v, then of u */
     int *pivots;        /* (n,) */
-    int columns;        /* number of columns of D allocated: nv - m, until fewer constraints are independent */
     double *memory;     /* (m, n): dense C, if the system's own is packed */
     const double *C;    /* (m, n): independent rows of C */
     double *D;          /* (n, r) */

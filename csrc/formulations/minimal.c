@@ -24,8 +24,7 @@ zd_minimal zd_minimal_create(zd_arena *arena, const zd_system *system, double *w
     return (zd_minimal){
         .complement = zd_complement_create(arena, system, workspace),
         .memory = zd_create_dense(arena, system, n * n),
-        .Mu = zd_arena_doubles(arena, r * r),
-        .columns = (int)r,
+        .Mu = zd_arena_doubles(arena, n * n),
         .size = (int)r,
         .u = zd_arena_doubles(arena, n),
         .b = zd_arena_doubles(arena, n),
@@ -44,29 +43,11 @@ void zd_minimal_lend(void *memory, double **Q, double **G)
     zd_complement_lend(&self->complement, Q, G);
 }
 
-static void *create_Mu(zd_arena *arena, const void *of)
-{
-    const zd_minimal *self = of;
-    return zd_arena_doubles(arena, (size_t)(self->complement.n * self->complement.n));
-}
-
-/* Allocates Mu for the columns of the complement. */
-static int need_columns(zd_minimal *self, const zd_point *point)
-{
-    if (self->complement.r <= self->columns) return ZD_DONE;
-    double *Mu = zd_store_create(point->rank->store, create_Mu, self);
-    if (!Mu) return ZD_NO_MEMORY;
-    self->Mu = Mu;
-    self->columns = self->complement.n;
-    return ZD_DONE;
-}
-
 int zd_minimal_factor(void *memory, zd_point *point)
 {
     zd_minimal *self = memory;
     if (self->many) return zd_structured_factor(self->many->structured, point, 0);
     int status = zd_complement_at(&self->complement, point);
-    if (!status) status = need_columns(self, point);
     if (status) return status;
     self->M = zd_dense_M(point, self->memory);
     zd_complement_mass(&self->complement, self->M, self->Mu);

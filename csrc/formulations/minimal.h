@@ -11,7 +11,6 @@ typedef struct zd_minimal {
     double *memory;     /* (n, n): dense M, if the system's own is packed */
     const double *M;    /* (n, n): the point's */
     double *Mu;         /* (r, r): Cholesky factor of D^T M D */
-    int columns;    /* number of its rows allocated */
     int size;           /* number of u in the state */
     double *u;          /* (size,): u of the state */
     double *b;          /* (n,) */

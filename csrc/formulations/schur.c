@@ -59,8 +59,11 @@ static void *create(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
     schur self = {.n = system->nv, .m = zd_constraints(system), .most = zd_constraints(system), .many = zd_structured_create(arena, system)};
-    if (!zd_rank_is_of_many(system)) self.blocks = zd_schur_blocks_create(arena, system);
-    if (!system->structure) create_matrices(arena, &self);
+    if (!zd_rank_is_of_many(system)) {
+        self.blocks = zd_schur_blocks_create(arena, system);
+        self.dense_C = zd_create_dense(arena, system, (size_t)(self.most * self.n));
+        create_matrices(arena, &self);
+    }
     return zd_arena_copy(arena, &self, sizeof self);
 }
 
@@ -152,14 +155,6 @@ static int factor_dense(schur *self, zd_point *point, const double *M)
 
 /* ---- systems that declare their structure ---- */
 
-static void *create_all(zd_arena *arena, const void *of)
-{
-    schur self = *(const schur *)of;
-    self.dense_C = zd_arena_doubles(arena, (size_t)(self.most * self.n));
-    create_matrices(arena, &self);
-    return zd_arena_copy(arena, &self, sizeof self);
-}
-
 /* True if its pivots show that all constraints are independent, or that is known. */
 static int are_independent(const schur *self, zd_point *point)
 {
@@ -194,17 +189,11 @@ static int factor_coupled(schur *self, zd_point *point)
     return status;
 }
 
-/* Factors by blocks; or by dense matrices, allocated when first needed, if constraints are left out or C M^-1 C^T has lost too many
- * digits. */
+/* Factors by blocks; or by dense matrices, if constraints are left out or C M^-1 C^T has lost too many digits. */
 static int factor_packed(schur *self, zd_point *point)
 {
     int status = factor_coupled(self, point);
     if (status || self->is_coupled) return status;
-    if (!self->L) {
-        const schur *all = zd_store_create(point->rank->store, create_all, self);
-        if (!all) return ZD_NO_MEMORY;
-        *self = *all;
-    }
     return factor_dense(self, point, zd_dense_M(point, self->L));
 }
 

@@ -1,27 +1,32 @@
 #include "motion.h"
 
+#include "../constraints/limits.h"
 #include "../constraints/rank.h"
 #include "../constraints/rank_monitor.h"
 
-/* Memory for the selection of independent constraints, with the monitor of full rank where factoring does not determine it. */
+/* Memory for the selection of independent constraints, with its monitors: the formulation lends its own where factoring does not determine
+ * the rank. Large structures have none. */
 static zd_rank *create_rank(zd_motion *motion, zd_arena *arena, const zd_system *independent)
 {
     const zd_formulation *formulation = motion->formulation;
     const zd_system *system = &motion->system;
-    zd_rank *rank = zd_rank_create(arena, system, zd_has_many_constraints(formulation, system));
-    zd_rank_monitor *monitor = NULL;
+    const int is_large = zd_has_many_constraints(formulation, system), is_dense = !system->structure;
+    zd_rank *rank = zd_rank_create(arena, system, is_large);
     double *rhs = formulation->update ? zd_arena_doubles(arena, (size_t)zd_constraints(system)) : NULL;
-    int lends = formulation->lend_workspace && zd_constraints(independent) == zd_constraints(system) && !system->structure;
+    const int finds = formulation->finds_independent && formulation->finds_independent(system);
+    const int has_rank = is_dense && (finds || zd_constraints(system) <= ZD_FEW_CONSTRAINTS);
+    const int lends = formulation->lend_workspace && zd_constraints(independent) == zd_constraints(system) && is_dense && !has_rank;
     double counted, *Q = lends ? &counted : NULL, *G = Q;
     if (motion->solver && lends) formulation->lend_workspace(motion->solver, &Q, &G);
-    const int are_many = zd_has_many_constraints(formulation, system), is_dense = !system->structure;
-    const int finds = formulation->finds_independent && formulation->finds_independent(system);
-    int has_rank = is_dense ? finds || zd_constraints(system) <= ZD_FEW_CONSTRAINTS : are_many;
-    if (!has_rank) monitor = zd_rank_monitor_create(arena, system, Q, G);
+    zd_rank_monitor *monitor = is_large ? NULL : zd_rank_monitor_create(arena, system, Q, G);
+    zd_rank_monitor *kept = is_large ? NULL : zd_rank_monitor_create_selection(arena, system);
+    zd_limits *limits = is_large ? NULL : zd_limits_create(arena, system);
     if (!rank) return NULL;
     rank->monitor = monitor;
+    rank->kept = kept;
     rank->rhs = rhs;
     rank->store = &motion->store;
+    if (rank->selection) rank->selection->limits = limits;
     return rank;
 }
 
@@ -50,7 +55,10 @@ void zd_motion_create(zd_motion *motion, zd_arena *arena, const zd_system *syste
     };
     motion->point = zd_point_create(arena, &motion->system, &motion->statistics);
     zd_rank *rank = create_rank(motion, arena, independent);
-    if (motion->point) motion->point->rank = rank;
+    if (motion->point) {
+        motion->point->rank = rank;
+        motion->point->C = motion->point->terms.C;      /* all constraints, until some are selected */
+    }
     motion->rate = (zd_rate){
         .inputs = motion->point ? motion->point->inputs : NULL,
         .context = motion,

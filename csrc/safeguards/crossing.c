@@ -32,12 +32,11 @@ static const double LONGEST = 1;    /* displacement in characteristic scales: al
 static const double NEAR = 0.5;     /* in characteristic scales: distance of these points */
 static const double NEARBY = 1e-3;  /* in characteristic scales: with a larger violation the motion is not held on the constraints */
 
-static void *create_memory(zd_arena *arena, const void *of)
+static zd_crossing_memory *create_memory(zd_arena *arena, const zd_motion *motion)
 {
-    const zd_motion *motion = of;
     const zd_system *system = &motion->system;
     const int has_turn = !zd_has_many_constraints(motion->formulation, system);
-    size_t m = (size_t)zd_constraints(system), n = (size_t)system->nv, stored = (size_t)zd_size_of_C(system);
+    const size_t m = (size_t)zd_constraints(system), n = (size_t)system->nv, stored = (size_t)zd_size_of_C(system);
     zd_crossing_memory self = {
         .C = zd_arena_doubles(arena, stored),
         .previous = zd_arena_doubles(arena, stored),
@@ -56,7 +55,8 @@ static int are_few(const zd_system *system) { return zd_constraints(system) <= Z
 zd_crossing zd_crossing_create(zd_arena *arena, zd_motion *motion, const zd_last *last)
 {
     const zd_system *system = &motion->system;
-    return (zd_crossing){.motion = motion, .last = last, .memory = are_few(system) ? create_memory(arena, motion) : NULL};
+    return (zd_crossing){.motion = motion, .last = last, .memory = create_memory(arena, motion),
+                         .keeps_rows = are_few(system)};
 }
 
 int zd_crossing_is_at_one(const zd_point *point)
@@ -84,12 +84,6 @@ static void store_rows(const zd_point *point, double *C)
     else ZD_SIZED(keep_rows, point->rank->n, point->rank->m, point, C);
 }
 
-static int need_memory(zd_crossing *self)
-{
-    if (!self->memory) self->memory = zd_store_create(&self->motion->store, create_memory, self->motion);
-    return self->memory ? ZD_DONE : ZD_NO_MEMORY;
-}
-
 /* memory->C <- C at the start of the step, evaluated again in separate memory. */
 static int evaluate_beginning(zd_crossing *self)
 {
@@ -108,9 +102,9 @@ static int evaluate_beginning(zd_crossing *self)
 int zd_crossing_need_rows(zd_crossing *self)
 {
     if (self->has_rows) return ZD_DONE;
-    int status = need_memory(self);
-    if (!status) status = evaluate_beginning(self);
+    const int status = evaluate_beginning(self);
     self->has_rows = !status;
+    self->keeps_rows = 1;
     return status;
 }
 
@@ -230,7 +224,7 @@ static void keep(zd_crossing *self)
 {
     const zd_point *point = self->motion->point;
     self->has_begun = 1;
-    self->has_rows = self->memory != NULL;
+    self->has_rows = self->keeps_rows;
     if (self->has_rows) store_rows(point, self->memory->C);
     point->rank->was_turned = !(point->known & ZD_RANKED);     /* not ranked after intermediate points were evaluated */
 }

@@ -86,7 +86,8 @@ typedef struct zd_crossing {
     int may_pass;           /* true if the step may pass a bifurcation */
     int constraints_hold;   /* true if (3) is satisfied at the end of every step */
     int has_rows;           /* true if memory->C belongs to the start of the step */
-    zd_crossing_memory *memory;     /* NULL until it is needed; with few constraints it is allocated at creation */
+    int keeps_rows;         /* true if each step saves its rows, as with few constraints, or once a step has needed them */
+    zd_crossing_memory *memory;
 } zd_crossing;
 
 zd_crossing zd_crossing_create(zd_arena *arena, zd_motion *motion, const zd_last *last);

@@ -17,12 +17,12 @@ void zd_stepper_create(zd_stepper *self, zd_arena *arena, zd_motion *motion, con
     const size_t used = arena->used;
     void *memory = integrator->create(arena, integrator->table, system, (int)size, given);
     const zd_span memory_of_integrator = zd_span_since(arena, used);
+    if (dependent.formulation) dependent.solver = dependent.formulation->create(arena, independent, NULL);
     const int is_complete = !motion->formulation->update;     /* then the state begins with p and v */
     *self = (zd_stepper){
         .motion = motion,
         .chosen = {motion->formulation, motion->solver, own},
         .dependent = dependent,
-        .independent = *independent,
         .capacity = (int)size,
         .integrator = integrator,
         .memory = memory,

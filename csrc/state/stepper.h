@@ -15,9 +15,7 @@ typedef struct zd_variables {
 typedef struct zd_stepper {
     zd_motion *motion;
     zd_variables chosen;    /* formulation of the settings */
-    zd_variables dependent; /* (p, v), used where the chosen variables lose digits: variables.c. No formulation if they never do, no
-                             * solver until then */
-    zd_system independent;  /* sizes for which the solver of `dependent` is allocated */
+    zd_variables dependent; /* (p, v), used where the chosen variables lose digits: variables.c. No formulation if they never do */
     int capacity;           /* the largest size of the state */
     const zd_integrator *integrator;
     void *memory;           /* memory of the integrator */

@@ -43,23 +43,14 @@ static void use(zd_stepper *stepper, const zd_variables *variables, const double
     zd_motion_attach(motion, stepper->y);
 }
 
-static void *create_solver(zd_arena *arena, const void *of)
-{
-    const zd_stepper *stepper = of;
-    return stepper->dependent.formulation->create(arena, &stepper->independent, NULL);
-}
-
 int zd_variables_use_dependent(zd_stepper *stepper)
 {
     zd_motion *motion = stepper->motion;
     const zd_last *last = &stepper->last;
-    zd_variables *dependent = &stepper->dependent;
-    if (!dependent->solver) dependent->solver = zd_store_create(&motion->store, create_solver, stepper);
-    if (!dependent->solver) return ZD_NO_MEMORY;
     motion->statistics.repartitions++;
     stepper->t = last->t;
     zd_point_move(motion->point, last->t, last->p, last->v);
-    use(stepper, dependent, last->y + motion->formulation_size);
+    use(stepper, &stepper->dependent, last->y + motion->formulation_size);
     /* This near a bifurcation, the constraints must be satisfied far better than the tolerance requires, and can be. */
     int status = zd_motion_correct(motion, 0, 1);
     return status ? status : motion->formulation->pack(motion->solver, motion->point, stepper->y);

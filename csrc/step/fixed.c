@@ -7,7 +7,7 @@ enum { MAX_PARTS = 8 };    /* largest number of parts of a step that fails */
 
 static int next_part(zd_step_loop *loop, zd_attempt *attempt, double t1)
 {
-    const double t0 = loop->undivided->t;
+    const double t0 = loop->undivided.t;
     attempt->t1 = loop->part == loop->parts ? t1 : t0 + (t1 - t0) * loop->part / loop->parts;
     attempt->h = attempt->t1 - loop->stepper->t;
     attempt->forced = 1;
@@ -31,12 +31,6 @@ static int next(zd_step_loop *loop, zd_attempt *attempt)
     return ZD_DONE;
 }
 
-static void *create_state(zd_arena *arena, const void *of)
-{
-    const zd_state state = zd_state_create(arena, of);
-    return zd_arena_copy(arena, &state, sizeof state);
-}
-
 static int is_too_far(int status)
 {
     return status == ZD_NO_CONVERGENCE || status == ZD_BRANCH || status == ZD_NO_EMBEDDING || status == ZD_BIFURCATION_PASSED;
@@ -49,7 +43,7 @@ static int divide(zd_step_loop *loop, int *status)
         loop->parts *= 2;
         if (!is_too_far(*status) || loop->parts > MAX_PARTS) return 0;
         loop->part = 1;
-        *status = zd_stepper_return_to(loop->stepper, loop->undivided);
+        *status = zd_stepper_return_to(loop->stepper, &loop->undivided);
         if (!*status) *status = zd_safeguards_begin(loop->safeguards, loop->step + 1);
         if (!*status) return 1;
     }
@@ -58,15 +52,12 @@ static int divide(zd_step_loop *loop, int *status)
 static int begin_parts(zd_step_loop *loop, int *status)
 {
     zd_stepper *stepper = loop->stepper;
-    if (!loop->undivided) loop->undivided = zd_store_create(&loop->motion->store, create_state, loop->motion);
-    const int returned = loop->undivided ? zd_stepper_return(stepper) : ZD_NO_MEMORY;
-    if (returned) {
-        *status = returned;
-        return 0;
-    }
-    zd_stepper_save_state(stepper, loop->undivided);
+    const int returned = zd_stepper_return(stepper);
+    zd_stepper_save_state(stepper, &loop->undivided);
     loop->parts = 1;
-    return divide(loop, status);
+    if (!returned) return divide(loop, status);
+    *status = returned;
+    return 0;
 }
 
 static int repeats(zd_step_loop *loop, int *status)

@@ -1,7 +1,7 @@
-/* Memory that ends while a run steps: parallelograms that pass the bifurcation of each of them, in every formulation. What the core asks for
- * is only granted so many times once the run is there, one time more in each run until nothing is refused. Linked with --wrap, so that each
- * call of the core itself arrives here. Steps are of fixed size, where rows come to depend in a stage or, as Euler's method has none, while
- * positions are corrected; and chosen. Prints "<formulation> <integrator> <granted> <status> <blocks left when the run is freed> <message>".
+/* Memory of a run that passes bifurcations: parallelograms, in every formulation. Once the run is there every request is refused. Linked
+ * with --wrap, so that each call of the core itself arrives here. Steps are of fixed size, where constraints come to depend in a stage or,
+ * as Euler's method has none, while positions are corrected; and chosen.
+ * Prints "<formulation> <integrator> <refused> <status> <blocks left when the run is freed> <message>".
  */
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +12,7 @@
 static const double BEND = 0.1;
 enum { BARS = 3, N = 3 * BARS, M = 2 * BARS, STEPS = 200 };
 
-static int granted = -1, refused, blocks;      /* granted < 0: every request is granted */
+static int refuses, refused, blocks;
 
 void *__real_aligned_alloc(size_t alignment, size_t size);
 void __real_free(void *memory);
@@ -21,8 +21,7 @@ void __wrap_free(void *memory);
 
 void *__wrap_aligned_alloc(size_t alignment, size_t size)
 {
-    if (granted == 0) return refused++, NULL;
-    granted -= granted > 0;
+    if (refuses) return refused++, NULL;
     blocks++;
     return __real_aligned_alloc(alignment, size);
 }
@@ -56,7 +55,7 @@ static int evaluate(const void *data, int want, double t, const double *p, const
     return ZD_DONE;
 }
 
-static void run(const zd_system *system, const zd_settings *settings, int grant)
+static void run(const zd_system *system, const zd_settings *settings)
 {
     static double rows[12][2 * N];
     static int counts[2][2];
@@ -69,14 +68,14 @@ static void run(const zd_system *system, const zd_settings *settings, int grant)
         p[i] = 2 * angle / (1 + sqrt(1 + 4 * bend * angle));
         v[i] = i % 3 == 1 ? 0 : 2 / (1 + 2 * bend * p[i]);
     }
-    granted = -1, refused = 0, blocks = 0;
+    refuses = refused = blocks = 0;
     zd_run *it = zd_run_create(system, settings, p, v, &status, message, sizeof message);
-    granted = grant;
+    refuses = 1;
     if (it) status = zd_run_advance(it, &record, 1e9);
     if (it) snprintf(message, sizeof message, "%s", zd_run_message(it));
     zd_run_free(it);
     printf("%s %s %d %d %d %s\n", zd_entry_card(ZD_FORMULATIONS, settings->formulation)->name,
-           zd_entry_card(ZD_INTEGRATORS, settings->integrator)->name, grant, status, blocks, message);
+           zd_entry_card(ZD_INTEGRATORS, settings->integrator)->name, refused, status, blocks, message);
 }
 
 int main(void)
@@ -90,14 +89,12 @@ int main(void)
     settings.correction[projection] = zd_initial(zd_entry_card(ZD_CORRECTIONS, projection));
     for (int i = 0; i < 3 * zd_entry_count(ZD_FORMULATIONS); i++) {
         const int is_chosen = i % 3 == 2;
-        int grant = 0;
         settings.formulation = i / 3;
         settings.integrator = zd_entry_named(ZD_INTEGRATORS, integrators[i % 3]);
         settings.steps = is_chosen ? ZD_ADAPTIVE_STEPS : ZD_FIXED_STEPS;
         settings.step = settings.t1 / STEPS;
         settings.rtol = settings.atol = is_chosen ? 1e-9 : 0;
-        do run(&system, &settings, grant++);
-        while (refused);
+        run(&system, &settings);
     }
     return 0;
 }
