@@ -32,13 +32,17 @@ void *zd_arena_bytes(zd_arena *arena, size_t bytes)
     return here;
 }
 
-double *zd_arena_doubles(zd_arena *arena, size_t count)
+/* Memory of numbers only. */
+static void *take_numbers(zd_arena *arena, size_t bytes)
 {
     const size_t from = arena->used / CACHE_LINE;
-    double *here = zd_arena_bytes(arena, count * sizeof *here);
+    void *here = zd_arena_bytes(arena, bytes);
     if (arena->has_numbers) memset(arena->has_numbers + from, 1, arena->used / CACHE_LINE - from);
     return here;
 }
+
+double *zd_arena_doubles(zd_arena *arena, size_t count) { return take_numbers(arena, count * sizeof(double)); }
+int *zd_arena_ints(zd_arena *arena, size_t count) { return take_numbers(arena, count * sizeof(int)); }
 
 void *zd_arena_copy(zd_arena *arena, const void *filled, size_t bytes)
 {

@@ -1,5 +1,5 @@
 /* Arena: one block with all memory of a run. The same code is executed twice: first to count bytes, then to assign addresses. Memory of a run
- * is in blocks that record where they have numbers, so that its state can be saved: see run/state.c.
+ * is in blocks that record where they have numbers, so that its state can be saved: see run/saved_state.c.
  */
 #pragma once
 
@@ -8,7 +8,7 @@
 typedef struct zd_arena {
     unsigned char *base;    /* NULL while counting: all addresses are NULL then */
     size_t used;
-    unsigned char *has_numbers;     /* for each cache line 1 if it has doubles only, to be recorded; NULL: not recorded */
+    unsigned char *has_numbers;     /* for each cache line 1 if it has numbers only, to be recorded; NULL: not recorded */
 } zd_arena;
 
 /* Header of a block of memory. */
@@ -27,6 +27,7 @@ static inline zd_arena zd_arena_in(zd_memory *memory) { return (zd_arena){memory
 
 void *zd_arena_bytes(zd_arena *arena, size_t bytes);
 double *zd_arena_doubles(zd_arena *arena, size_t count);
+int *zd_arena_ints(zd_arena *arena, size_t count);
 /* Allocates a structure in the arena and copies `filled` into it; NULL while counting. */
 void *zd_arena_copy(zd_arena *arena, const void *filled, size_t bytes);
 

@@ -39,8 +39,8 @@ zd_single_run zd_single_run_create(zd_arena *arena, const zd_batch *batch)
             .potential = zd_arena_doubles(arena, rows),
             .input = zd_arena_doubles(arena, rows),
             .energy_violation = zd_arena_doubles(arena, rows),
-            .iterations = zd_arena_bytes(arena, rows * sizeof(int)),
-            .energy_skipped = zd_arena_bytes(arena, rows * sizeof(int)),
+            .iterations = zd_arena_ints(arena, rows),
+            .energy_skipped = zd_arena_ints(arena, rows),
             .outputs = outputs ? zd_arena_doubles(arena, rows * (size_t)width_of(outputs, system)) : NULL,
         },
     };

@@ -31,8 +31,8 @@ static gaps create(zd_arena *arena, const zd_block *block)
     return (gaps){.block = block, .Phi = zd_arena_doubles(arena, mh),
                   .v = zd_arena_doubles(arena, nv), .scratch = zd_arena_doubles(arena, (size_t)system->scratch),
                   .open = zd_arena_doubles(arena, joints), .p = zd_arena_doubles(arena, (size_t)system->nq),
-                  .role = zd_arena_bytes(arena, mh * sizeof(int)),
-                  .of_loop = zd_arena_bytes(arena, (joints + bodies + 1) * sizeof(int))};
+                  .role = zd_arena_ints(arena, mh),
+                  .of_loop = zd_arena_ints(arena, (joints + bodies + 1))};
 }
 
 /* open <- gaps of all joints at p; returns a status of the core. */

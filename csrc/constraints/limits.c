@@ -56,7 +56,7 @@ zd_limits *zd_limits_create(zd_arena *arena, const zd_system *system)
         .force = zd_arena_doubles(arena, n),
         .K = zd_arena_doubles(arena, (n + m) * (n + m)),
         .y = zd_arena_doubles(arena, n + m),
-        .order = zd_arena_bytes(arena, (n + m) * sizeof(int)),
+        .order = zd_arena_ints(arena, (n + m)),
     };
     return zd_arena_copy(arena, &self, sizeof self);
 }

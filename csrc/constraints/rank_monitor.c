@@ -54,7 +54,7 @@ zd_rank_monitor *zd_rank_monitor_create_selection(zd_arena *arena, const zd_syst
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     zd_rank_monitor self = {
         .m = (int)m,
-        .row = zd_arena_bytes(arena, m * sizeof(int)),
+        .row = zd_arena_ints(arena, m),
         .C = zd_arena_bytes(arena, (size_t)zd_size_of_C(system) * sizeof(float)),
         .weight = zd_arena_doubles(arena, m),
         .share = system->structure ? zd_arena_doubles(arena, (size_t)zd_size_of_C(system)) : NULL,

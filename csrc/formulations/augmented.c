@@ -43,7 +43,7 @@ static void *create_dense(zd_arena *arena, const zd_system *system, const void *
         .is_small = is_small,
         .G = zd_arena_doubles(arena, is_small ? size * size : zd_triangle(size)),
         .b = zd_arena_doubles(arena, size),
-        .order = zd_arena_bytes(arena, size * sizeof(int)),
+        .order = zd_arena_ints(arena, size),
     };
     return zd_arena_copy(arena, &self, sizeof self);
 }

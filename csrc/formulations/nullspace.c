@@ -41,7 +41,7 @@ static void *create(zd_arena *arena, const zd_system *system, const void *given)
         .memory = zd_create_dense(arena, system, n * n),
         .H = H,
         .scale = zd_arena_doubles(arena, n),
-        .order = zd_arena_bytes(arena, n * sizeof(int)),
+        .order = zd_arena_ints(arena, n),
         .b = zd_arena_doubles(arena, n),
     };
     return zd_arena_copy(arena, &self, sizeof self);

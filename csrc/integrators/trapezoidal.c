@@ -65,7 +65,7 @@ static void *create(zd_arena *arena, const void *table, const zd_system *system,
         .g = zd_arena_doubles(arena, n),
         .differences = zd_differences_create(arena, size),
         .J = zd_arena_doubles(arena, n * n),
-        .order = zd_arena_bytes(arena, n * sizeof(int)),
+        .order = zd_arena_ints(arena, n),
     };
     return zd_arena_copy(arena, &self, sizeof self);
 }

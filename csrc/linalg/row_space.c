@@ -11,7 +11,7 @@ zd_row_space zd_row_space_create(zd_arena *arena, int most, int n)
     const size_t rows = (size_t)most, columns = (size_t)n;
     return (zd_row_space){
         .n = n, .most = most, .A = zd_arena_doubles(arena, rows * columns), .diagonal = zd_arena_doubles(arena, columns),
-        .factor = zd_arena_doubles(arena, columns), .norm = zd_arena_doubles(arena, rows), .order = zd_arena_bytes(arena, rows * sizeof(int)),
+        .factor = zd_arena_doubles(arena, columns), .norm = zd_arena_doubles(arena, rows), .order = zd_arena_ints(arena, rows),
         .T = zd_arena_doubles(arena, columns * rows), .y = zd_arena_doubles(arena, columns), .c = zd_arena_doubles(arena, rows),
     };
 }

@@ -315,7 +315,7 @@ static zd_reactions create(zd_arena *arena, const zd_system *system)
         .G = zd_arena_doubles(arena, k * n),
         .R = zd_arena_doubles(arena, n), .change = zd_arena_doubles(arena, n), .scale = zd_arena_doubles(arena, n),
         .matrix = zd_arena_doubles(arena, n * n), .inverse = zd_arena_doubles(arena, n * n),
-        .order = zd_arena_bytes(arena, n * sizeof(int)),
+        .order = zd_arena_ints(arena, n),
         .measured = zd_arena_doubles(arena, (size_t)zd_largest_measure(system->measures)),
         .scratch = zd_arena_doubles(arena, (size_t)system->measures->scratch),
     };

@@ -51,7 +51,7 @@ zd_watch zd_watch_create(zd_arena *arena, const zd_events *events, zd_output *ou
         .early = zd_state_create(arena, motion),
         .late = zd_state_create(arena, motion),
         .mixed = zd_state_create(arena, motion),
-        .found = zd_arena_bytes(arena, count * sizeof(int)),
+        .found = zd_arena_ints(arena, count),
     };
 }
 

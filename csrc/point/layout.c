@@ -118,7 +118,7 @@ static void fill_touchers(zd_layout *self, const zd_structure *structure)
 
 static int *arena_ints(zd_arena *arena, int count)
 {
-    return zd_arena_bytes(arena, (size_t)count * sizeof(int));
+    return zd_arena_ints(arena, (size_t)count);
 }
 
 const zd_layout *zd_layout_create(zd_arena *arena, const zd_system *system)

@@ -44,7 +44,7 @@ static zd_crossing_memory *create_memory(zd_arena *arena, const zd_motion *motio
         .p1 = zd_arena_doubles(arena, (size_t)system->nq),
         .v1 = zd_arena_doubles(arena, n),
         .turn = zd_arena_doubles(arena, has_turn ? m * m : 0),
-        .order = zd_arena_bytes(arena, m * sizeof(int)),
+        .order = zd_arena_ints(arena, m),
         .scratch = zd_arena_doubles(arena, (size_t)system->scratch),
     };
     return zd_arena_copy(arena, &self, sizeof self);

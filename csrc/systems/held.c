@@ -78,9 +78,9 @@ static zd_structure create_structure(zd_arena *arena, const holding *it, int row
     const zd_structure *inner = it->inner->structure;
     const int groups = groups_of(inner, rows), touched = inner->groups ? inner->first[groups] : 0;
     zd_structure structure = *inner;
-    int *rows_of = zd_arena_bytes(arena, (size_t)(groups + inner->blocks) * sizeof(int));
-    int *first = zd_arena_bytes(arena, (size_t)(groups + inner->blocks + 1) * sizeof(int));
-    int *block = zd_arena_bytes(arena, (size_t)(touched + inner->blocks) * sizeof(int));
+    int *rows_of = zd_arena_ints(arena, (size_t)(groups + inner->blocks));
+    int *first = zd_arena_ints(arena, (size_t)(groups + inner->blocks + 1));
+    int *block = zd_arena_ints(arena, (size_t)(touched + inner->blocks));
     if (!arena->base) return structure;
     if (groups) {
         memcpy(rows_of, inner->rows, (size_t)groups * sizeof(int));

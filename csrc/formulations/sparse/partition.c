@@ -99,7 +99,7 @@ zd_partition *zd_partition_create(zd_arena *arena, int nv, int rows, int indepen
     const size_t n = (size_t)nv, m = (size_t)rows;
     zd_partition self = {
         .independents = independents,
-        .index = zd_arena_bytes(arena, (size_t)independents * sizeof(int)),
+        .index = zd_arena_ints(arena, (size_t)independents),
         .left_out = zd_arena_bytes(arena, n),
         .weight = zd_arena_doubles(arena, m),
         .residual = zd_arena_doubles(arena, m),

@@ -13,8 +13,8 @@ zd_radau_matrices zd_radau_matrices_create(zd_arena *arena, int size)
         .re = zd_arena_doubles(arena, n * n),
         .im = zd_arena_doubles(arena, n * n),
         .weight = zd_arena_doubles(arena, n),
-        .real_order = zd_arena_bytes(arena, n * sizeof(int)),
-        .complex_order = zd_arena_bytes(arena, n * sizeof(int)),
+        .real_order = zd_arena_ints(arena, n),
+        .complex_order = zd_arena_ints(arena, n),
         .scaled = zd_arena_doubles(arena, n),
         .right = zd_arena_doubles(arena, n),
     };

@@ -28,7 +28,7 @@ zd_radau_stages zd_radau_stages_create(zd_arena *arena, int size)
     return (zd_radau_stages){
         .J = zd_arena_doubles(arena, STAGES * n * n),
         .factors = zd_arena_doubles(arena, rows * rows),
-        .order = zd_arena_bytes(arena, rows * sizeof(int)),
+        .order = zd_arena_ints(arena, rows),
         .weight = zd_arena_doubles(arena, rows),
         .right = zd_arena_doubles(arena, rows),
         .change = zd_arena_doubles(arena, STAGES * n),

@@ -7,8 +7,6 @@
 
 /* ---- memory ---- */
 
-static int *arena_ints(zd_arena *arena, int count) { return zd_arena_bytes(arena, (size_t)count * sizeof(int)); }
-
 typedef struct counts {
     int rows, largest;      /* scalar rows; those of the largest block row */
     int numbers;            /* size of S */
@@ -88,15 +86,15 @@ zd_blocks *zd_blocks_create(zd_arena *arena, const zd_ordering *ordering)
     zd_blocks self = {
         .count = count,
         .rows = all.rows,
-        .place = arena_ints(arena, count),
-        .at = arena_ints(arena, count + 1),
-        .pivot_at = arena_ints(arena, count + 1),
-        .begin = arena_ints(arena, count + 1),
-        .row = arena_ints(arena, entries),
-        .entry_at = arena_ints(arena, entries + 1),
-        .target_begin = arena_ints(arena, count + 1),
-        .target = arena_ints(arena, all.targets),
-        .kernel = arena_ints(arena, count),
+        .place = zd_arena_ints(arena, count),
+        .at = zd_arena_ints(arena, count + 1),
+        .pivot_at = zd_arena_ints(arena, count + 1),
+        .begin = zd_arena_ints(arena, count + 1),
+        .row = zd_arena_ints(arena, entries),
+        .entry_at = zd_arena_ints(arena, entries + 1),
+        .target_begin = zd_arena_ints(arena, count + 1),
+        .target = zd_arena_ints(arena, all.targets),
+        .kernel = zd_arena_ints(arena, count),
         .size = all.numbers,
         .S = zd_arena_doubles(arena, (size_t)all.numbers),
         .diagonal = zd_arena_doubles(arena, (size_t)all.rows),

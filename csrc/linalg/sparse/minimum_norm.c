@@ -155,8 +155,8 @@ static void create_lists(zd_arena *arena, elimination *self)
 {
     const zd_sparse_equations *of = self->equations;
     self->block = zd_arena_bytes(arena, (size_t)of->blocks * sizeof *self->block);
-    self->next_row = zd_arena_bytes(arena, (size_t)of->rows * sizeof(int));
-    self->column = zd_arena_bytes(arena, (size_t)of->at[of->blocks] * sizeof(int));
+    self->next_row = zd_arena_ints(arena, (size_t)of->rows);
+    self->column = zd_arena_ints(arena, (size_t)of->at[of->blocks]);
 }
 
 /* Memory of the lists first, as they tell the sizes of the matrices */

@@ -64,7 +64,7 @@ static void remove(queues *self, int degree, int k)
 
 /* ---- the search ---- */
 
-static int *arena_ints(zd_arena *arena, int count) { return zd_arena_bytes(arena, (size_t)count * sizeof(int)); }
+static int *arena_ints(zd_arena *arena, int count) { return zd_arena_ints(arena, (size_t)count); }
 
 static search lay_out(zd_arena *arena, const zd_pattern *pattern, const int *given)
 {

@@ -39,8 +39,8 @@ static void *create(zd_arena *arena, const void *of)
     zd_bodies self = {
         .layout = it->layout,
         .blocks = zd_blocks_create(arena, &it->ordering),
-        .at = zd_arena_bytes(arena, (size_t)it->layout->blocks * sizeof(int)),
-        .pair = zd_arena_bytes(arena, (size_t)count_pairs(it->layout) * sizeof(int)),
+        .at = zd_arena_ints(arena, (size_t)it->layout->blocks),
+        .pair = zd_arena_ints(arena, (size_t)count_pairs(it->layout)),
     };
     if (arena->base) fill(&self);
     return zd_arena_copy(arena, &self, sizeof self);

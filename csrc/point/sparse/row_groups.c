@@ -47,7 +47,7 @@ zd_row_groups zd_row_groups_create(zd_arena *arena, const zd_layout *layout, con
         .group = zd_arena_bytes(arena, (size_t)layout->groups * sizeof(zd_row_group)),
         .column = layout->column,
         .rows = rows,
-        .place = zd_arena_bytes(arena, (size_t)rows * sizeof(int)),
+        .place = zd_arena_ints(arena, (size_t)rows),
         .are_pairs = 1,
     };
     for (int g = 0; arena->base && g < layout->groups; g++) {

@@ -11,8 +11,6 @@
 
 enum { TOUCHERS_OF_COPY = 4 };
 
-static int *arena_ints(zd_arena *arena, int count) { return zd_arena_bytes(arena, (size_t)count * sizeof(int)); }
-
 static int touchers_of(const zd_layout *layout, int b) { return layout->toucher_at[b + 1] - layout->toucher_at[b]; }
 static int copies_of(const zd_layout *layout, int b)
 {
@@ -67,7 +65,7 @@ static counts count_all(const zd_layout *layout)
 /* The pattern of S, on memory of its own: block rows are the groups, then the welds. */
 static zd_pattern lay_out_pattern(zd_arena *arena, const zd_layout *layout, const counts *all)
 {
-    int *size = arena_ints(arena, all->rows), *begin = arena_ints(arena, all->cliques + 1), *member = arena_ints(arena, all->members);
+    int *size = zd_arena_ints(arena, all->rows), *begin = zd_arena_ints(arena, all->cliques + 1), *member = zd_arena_ints(arena, all->members);
     zd_pattern pattern = {all->rows, size, all->cliques, begin, member};
     if (!arena->base) return pattern;
     for (int g = 0; g < layout->groups; g++) size[g] = layout->row_at[g + 1] - layout->row_at[g];
@@ -169,17 +167,17 @@ static void *create(zd_arena *arena, const void *of)
 {
     const plan *it = of;
     const int joints = it->layout->toucher_at[it->layout->blocks], welds = it->all.rows - it->layout->groups, largest = it->all.largest;
-    int *piece = arena_ints(arena, it->all.max_members);
+    int *piece = zd_arena_ints(arena, it->all.max_members);
     zd_weighted self = {
         .layout = it->layout,
         .blocks = zd_blocks_create(arena, &it->ordering),
         .piece = zd_arena_bytes(arena, (size_t)(joints + 2 * welds) * sizeof(zd_piece)),
         .pair = zd_arena_bytes(arena, (size_t)it->all.pairs * sizeof(zd_pair)),
-        .at = arena_ints(arena, it->all.pairs),
+        .at = zd_arena_ints(arena, it->all.pairs),
         .weld = zd_arena_doubles(arena, welds ? 2 * (size_t)(largest * largest) : 0),
         .members = it->all.members,
         .largest = largest,
-        .row = arena_ints(arena, it->layout->groups),
+        .row = zd_arena_ints(arena, it->layout->groups),
         .product = zd_arena_doubles(arena, (size_t)(it->all.largest_block * largest)),
     };
     if (!welds) self.largest = 0;

@@ -70,7 +70,7 @@ static zd_assembly create(zd_arena *arena, const zd_assembly_problem *given)
         .widest = widest_of(given), .solver = given->many ? &zd_assembly_sparse : &zd_assembly_dense,
         .terms = create_terms(arena, system, m), .at_rest = zd_arena_doubles(arena, n), .measures = zd_arena_doubles(arena, measures),
         .target = zd_arena_doubles(arena, targets), .scale = zd_arena_doubles(arena, n), .weight = zd_arena_doubles(arena, n),
-        .r = zd_arena_doubles(arena, most), .start = zd_arena_doubles(arena, most), .of = zd_arena_bytes(arena, most * sizeof(int)),
+        .r = zd_arena_doubles(arena, most), .start = zd_arena_doubles(arena, most), .of = zd_arena_ints(arena, most),
     };
     self.metric = given->many ? NULL : self.weight;
     self.terms.inputs = given->inputs;

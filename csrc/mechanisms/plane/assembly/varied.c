@@ -55,7 +55,7 @@ static found allocate(zd_arena *arena, const zd_varied *self, const zd_plane *dr
             .places = zd_arena_doubles(arena, (size_t)self->drives),
         .p = zd_arena_doubles(arena, (size_t)system->nv), .v = zd_arena_doubles(arena, (size_t)system->nv),
         .scratch = zd_arena_doubles(arena, (size_t)system->scratch), .Phi = zd_arena_doubles(arena, (size_t)system->mh),
-        .role = zd_arena_bytes(arena, (size_t)system->mh * sizeof(int)),
+        .role = zd_arena_ints(arena, (size_t)system->mh),
     };
 }
 
