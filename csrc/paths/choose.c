@@ -100,23 +100,35 @@ static void save_pivots(zd_motion *motion)
     }
 }
 
+/* True if the order alone gives the rate of the state. */
+static int gives_rate(const zd_motion *motion)
+{
+    const zd_path *path = &motion->path;
+    return path->order >= 0 && !motion->is_stabilized && !path->embeds && motion->rate.size == motion->formulation_size;
+}
+
+void zd_path_bind(zd_motion *motion)
+{
+    if (zd_has_closed_form(motion)) motion->equations = motion->path.order < 0 ? &zd_equations_by_matrices : motion->path.equations;
+    zd_motion_describe_rate(motion);
+    motion->rate.closed_form = gives_rate(motion) ? zd_path_order(motion) : NULL;
+    motion->rate.vdot = motion->path.is_plain ? motion->point->vdot : NULL;
+}
+
 void zd_path_take(zd_motion *motion, int i)
 {
     zd_path *path = &motion->path;
     if (path->order == i) return;
     const zd_elimination *order = i < 0 ? NULL : path->first + i;
-    const int is_rate = order && !motion->is_stabilized && !path->embeds && motion->rate.size == motion->formulation_size;
     motion->point->known &= ~ZD_ACCELERATED;
     path->order = i;
     path->continues = 0;
     if (order) discard_pivots(motion);
     path->finishes = order && order->finish && ends_with_projection(motion);
     for (int k = 0; k < motion->system.mh; k++) path->allowed[k] = motion->target.tolerance * motion->point->size[k];
-    motion->equations = order ? path->equations : &zd_equations_by_matrices;
-    zd_motion_describe_rate(motion);
-    motion->rate.closed_form = is_rate ? order : NULL;
-    path->is_plain = path->finishes && is_rate && motion->target.every == 1 && !motion->point->terms.A && !motion->system.quaternions;
-    motion->rate.vdot = path->is_plain ? motion->point->vdot : NULL;
+    path->is_plain = path->finishes && gives_rate(motion) && motion->target.every == 1 && !motion->point->terms.A
+        && !motion->system.quaternions;
+    zd_path_bind(motion);
 }
 
 int zd_closed_form_leave(zd_motion *motion)

@@ -14,6 +14,8 @@ int zd_closed_form_choose(zd_motion *motion);
 
 /* Takes the path with this elimination order, negative: by matrices, and all that follows from it: functions, rate, ranges of the pivots. */
 void zd_path_take(zd_motion *motion, int order);
+/* Sets the functions and addresses that follow from path and variables, of a state that was restored. */
+void zd_path_bind(zd_motion *motion);
 /* Change to the matrix path; true: from the closed-form path. For a part of a step; for a step from its start, with the counters of the
  * energy correction restored; for another start with other data, which clears the scales of the pivots. */
 int zd_closed_form_leave(zd_motion *motion);

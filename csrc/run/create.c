@@ -1,6 +1,7 @@
 /* Creation of a run: its memory, its components, and the checks of its start. */
 #include "run.h"
 
+#include <math.h>
 #include <stdio.h>
 
 #include "../constraints/rank.h"
@@ -83,7 +84,7 @@ static zd_run *create_run(zd_arena *arena, const zd_system *system, const zd_set
         .stepper = &run->stepper,
         .safeguards = &run->safeguards,
         .sizes = settings->steps == ZD_FIXED_STEPS ? &zd_fixed_sizes : &zd_adaptive_sizes,
-        .end = settings->t1,
+        .end = settings->t1, .limit = INFINITY,
         .t_begin = settings->t0,
     };
     if (zd_is_adaptive(&run->loop)) run->loop.control = zd_adaptive_create(arena, &run->stepper, settings->t0);

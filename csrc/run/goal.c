@@ -58,14 +58,20 @@ int zd_run_set_goal(zd_run *run, int64_t steps, double t)
     return ZD_DONE;
 }
 
-void zd_run_save_good(zd_run *run)
+static void save_good(zd_run *run)
 {
     zd_stepper_save_state(&run->stepper, &run->goal.good);
     run->goal.good_step = run->loop.step;
     run->goal.good_h = run->loop.control.h;
 }
 
-int zd_run_return_to_good(zd_run *run)
+int zd_run_begin_step(zd_run *run)
+{
+    if (run->settings.is_open) save_good(run);
+    return run->settings.inputs ? zd_inputs_begin_step(run) : ZD_DONE;
+}
+
+static int return_to_good(zd_run *run)
 {
     zd_step_loop *loop = &run->loop;
     zd_motion *motion = &run->motion;
@@ -80,6 +86,16 @@ int zd_run_return_to_good(zd_run *run)
     int status = zd_variables_use_chosen(&run->stepper);
     if (!status) status = zd_stepper_return_to(&run->stepper, &run->goal.good);
     return status ? status : zd_safeguards_begin(&run->safeguards, loop->step + 1);
+}
+
+int zd_run_finish(zd_run *run, int status)
+{
+    zd_outcome *outcome = &run->outcome;
+    if (!status && run->watch.ended) status = ZD_EVENT;
+    if (!status || outcome->status) return outcome->status;
+    status = outcome->status = zd_explain(run, status);
+    if (run->settings.is_open && status < 0 && !return_to_good(run)) outcome->status = ZD_DONE;
+    return status;
 }
 
 double zd_run_time(const zd_run *run) { return run->stepper.t; }

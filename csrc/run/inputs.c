@@ -112,7 +112,8 @@ static int is_followed(const zd_input_slot *place) { return place->is_speed && p
 /* s: end of the ramp of a speed */
 static double end_of(const zd_inputs *inputs, const zd_input_slot *place) { return place->place[2] + inputs->ramp; }
 
-double zd_inputs_next_end(const zd_run *run)
+/* s: time at which the next ramp ends; INFINITY: none */
+static double next_end(const zd_run *run)
 {
     const zd_inputs *inputs = run->settings.inputs;
     double end = INFINITY;
@@ -190,10 +191,9 @@ int zd_inputs_begin_step(zd_run *run)
     const zd_inputs *inputs = run->settings.inputs;
     zd_held_inputs *held = &run->held;
     keep(run);
-    if (inputs->ramp > 0 && !inputs->jumps) {
-        if (!follow(run)) return ZD_DONE;
-        held->is_new = 0;
-        return renew(run);
-    }
-    return held->is_new || held->has_ramp ? begin(run) : ZD_DONE;
+    if (inputs->ramp == 0 || inputs->jumps) return held->is_new || held->has_ramp ? begin(run) : ZD_DONE;
+    const int is_written = follow(run);
+    run->loop.limit = next_end(run);
+    if (is_written) held->is_new = 0;
+    return is_written ? renew(run) : ZD_DONE;
 }

@@ -96,10 +96,8 @@ int zd_inputs_have_speeds(const zd_inputs *inputs);
 int zd_inputs_read(zd_run *run);
 /* Writes new inputs, none of which is a speed, to their places. */
 void zd_inputs_write(zd_run *run);
-/* Ends the ramps of speeds that were followed, begins new ones, or makes their jumps. */
+/* Ends the ramps of speeds that were followed, begins new ones, or makes their jumps; limits the step to the end of a ramp. */
 int zd_inputs_begin_step(zd_run *run);
-/* s: time at which the next ramp of adaptive steps ends; INFINITY: none */
-double zd_inputs_next_end(const zd_run *run);
 /* Returns speeds to the start of the step. */
 void zd_inputs_return(zd_run *run);
 
@@ -107,10 +105,10 @@ void zd_inputs_return(zd_run *run);
 
 /* Removes the end of a run that is at its start. */
 void zd_run_leave_open(zd_run *run);
-/* Saves the start of the next step. */
-void zd_run_save_good(zd_run *run);
-/* Returns from a failed step to its start, from where the run can go on; on failure it cannot. */
-int zd_run_return_to_good(zd_run *run);
+/* Beginning of a step: an open run saves its start, and inputs are written. */
+int zd_run_begin_step(zd_run *run);
+/* Explains why the run ends; an open run that failed returns to the start of the step, from where it can go on. */
+int zd_run_finish(zd_run *run, int status);
 
 /* Writes the run's message, if it has none yet; returns the status, or a more specific one. */
 int zd_explain(zd_run *run, int status);

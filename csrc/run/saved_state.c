@@ -5,33 +5,43 @@
  * list what they store, and nothing that the next bit depends on can be forgotten: factors, elimination orders, rank decisions, step
  * control, samples that wait for room.
  *
- * Most words that differ are numbers. Addresses among them, as arrays that have been exchanged and memory that was allocated on demand, are
- * written relative to what they point to: the run's memory, the system's elimination orders, functions and tables, functions and tables of
- * the core. In memory of doubles nothing is taken for an address; elsewhere the bits of an address are not those of a number, since
- * as a double it would be below 1e-307, and as two ints or a count it would be above 2^32.
+ * Nearly all words that differ are numbers. Functions and tables of the core follow from indices, so that a core of another compiler or
+ * with other flags continues the run. Addresses of arrays, as those that were exchanged, are written relative to the run's memory. In memory
+ * of numbers none is looked for; elsewhere the bits of an address are those of no double above 1e-307, and of no int or count below 2^32.
  */
+#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "../paths/choose.h"
 #include "run.h"
 
 #define MAGIC UINT64_C(0x316574617473647a)      /* "zdstate1" on machines with little-endian words, which others refuse */
 #define END UINT64_MAX                          /* end of the entries of a block */
-static const uintptr_t EXTENT = (uintptr_t)1 << 26;     /* bytes: functions and tables of the core are closer to each other */
 
 enum { FINGERPRINT_WORDS = 8, WORD = sizeof(uint64_t) };
 enum { ALL_BYTES = 1, CHECKSUM, FINGERPRINT, UNIT = FINGERPRINT + FINGERPRINT_WORDS, SETTINGS, COORDINATES, VELOCITIES, PLACES, KEPT,
-       BLOCKS, HEADER };
+       BLOCKS, DEPENDENT, HEADER };
 
 /* Kinds of words that differ: first word of an entry is 8 * index + kind. */
 enum kind {
     NUMBERS,                /* their count, and the words */
     IN_RUN,                 /* an address in the run's memory: block, and offset from its header */
-    ORDER,                  /* the address of an elimination order: its index */
-    SAME,                   /* the value of a word of the run's zd_system: its index */
-    IN_CORE                 /* an address in the core: offset from a function */
+    SAME                    /* the value of a word of the run's zd_system: its index */
 };
+
+/* Words of zd_run that follow from the elimination order and from DEPENDENT, as zd_path_bind() sets them. */
+#define OF(member) offsetof(zd_run, motion.member)
+static const size_t FOLLOWING[] = {OF(formulation), OF(equations), OF(rate.evaluate), OF(rate.closed_form), OF(rate.expand), OF(rate.reduce)};
+
+static int follows(size_t i)
+{
+    int does = 0;
+    for (size_t k = 0; k < sizeof FOLLOWING / sizeof *FOLLOWING; k++) does |= i == FOLLOWING[k] / WORD;
+    return does;
+}
+
 
 /* ---- memory of a run ---- */
 
@@ -152,12 +162,6 @@ static int find_block(const zd_run *run, uintptr_t address, uint64_t *offset)
     return -1;
 }
 
-static int find_order(const zd_path *path, uintptr_t address, uint64_t *index)
-{
-    *index = (address - (uintptr_t)path->first) / sizeof *path->first;
-    return path->first && address >= (uintptr_t)path->first && *index < (uint64_t)path->orders;
-}
-
 /* The word of the run's system with this value: the address of a function or a table */
 static int find_same(const zd_run *run, uint64_t word, uint64_t *index)
 {
@@ -165,8 +169,6 @@ static int find_same(const zd_run *run, uint64_t word, uint64_t *index)
         if (word_at(&run->motion.system, *index) == word) return 1;
     return 0;
 }
-
-static uintptr_t core(void) { return (uintptr_t)zd_state_begin; }
 
 /* Writes the entry of a word of a structure; 0: it is a number */
 static int put_address(const zd_run *run, size_t i, uint64_t word, sink *to)
@@ -180,11 +182,8 @@ static int put_address(const zd_run *run, size_t i, uint64_t word, sink *to)
         put(to, found);
         return 1;
     }
-    if (address != word || word <= UINT16_MAX || word >> 48) return 0;
-    enum kind kind = find_order(&run->motion.path, address, &found) ? ORDER : find_same(run, word, &found) ? SAME : IN_CORE;
-    if (kind == IN_CORE) found = address - core() + EXTENT;
-    if (kind == IN_CORE && found > 2 * EXTENT) return 0;
-    put(to, 8 * (uint64_t)i + kind);
+    if (address != word || word <= UINT16_MAX || word >> 48 || !find_same(run, word, &found)) return 0;
+    put(to, 8 * (uint64_t)i + SAME);
     put(to, found);
     return 1;
 }
@@ -195,7 +194,7 @@ static void put_block(const zd_run *run, const zd_memory *block, sink *to)
     put(to, block->bytes);
     for (size_t i = 0; i < words_of(block); i++) {
         const uint64_t word = word_at(block->base, i);
-        const int differs = word != (block->image ? word_at(block->image, i) : 0);
+        const int differs = word != (block->image ? word_at(block->image, i) : 0) && !(block == run->memory && follows(i));
         const int is_number = i >= block->bytes / WORD || block->has_numbers[i * WORD / 64];
         if (!differs || (!is_number && put_address(run, i, word, to))) {
             count = 0;
@@ -215,7 +214,8 @@ static void put_block(const zd_run *run, const zd_memory *block, sink *to)
 static size_t write_state(const zd_run *run, const char *fingerprint, unsigned char *block)
 {
     const size_t nq = (size_t)run->motion.system.nq, nv = (size_t)run->motion.system.nv;
-    uint64_t header[HEADER] = {[0] = MAGIC, [COORDINATES] = nq, [VELOCITIES] = nv, [BLOCKS] = (uint64_t)count_blocks(run)};
+    uint64_t header[HEADER] = {[0] = MAGIC, [COORDINATES] = nq, [VELOCITIES] = nv, [BLOCKS] = (uint64_t)count_blocks(run),
+                               [DEPENDENT] = run->motion.formulation != run->stepper.chosen.formulation};
     sink to = {block, HEADER};
     const zd_inputs *inputs = run->settings.inputs;
     put_all(&to, run->start->base, nq + nv);
@@ -252,9 +252,7 @@ static uint64_t decoded(const zd_run *run, enum kind kind, uint64_t first, uint6
 {
     switch (kind) {
     case IN_RUN: return first < (uint64_t)count_blocks(run) ? (uint64_t)((uintptr_t)block_of(run, (int)first) + offset) : 0;
-    case ORDER: return (uint64_t)(uintptr_t)(run->motion.path.first + first);
     case SAME: return first < sizeof run->motion.system / WORD ? word_at(&run->motion.system, first) : 0;
-    case IN_CORE: return (uint64_t)(core() + (uintptr_t)first - EXTENT);
     case NUMBERS: break;
     }
     return 0;
@@ -319,6 +317,8 @@ static int fill(zd_run *run, const uint64_t *header, source *from)
         get(from);
         if (!apply(run, block_of(run, (int)i), from)) return ZD_BAD_ARGUMENT;
     }
+    if (header[DEPENDENT]) run->motion.formulation = run->stepper.dependent.formulation;
+    zd_path_bind(&run->motion);
     return ZD_DONE;
 }
 
@@ -341,7 +341,7 @@ zd_run *zd_state_restore(const zd_system *system, const zd_settings *settings, c
         zd_memory_free(start);
         if (!run || (agree && !*status)) return run;
         wrong = !agree ? "a saved state must be of a run with the same settings"
-              : *status == ZD_NO_MEMORY ? "there is no memory for a saved state" : "a saved state must fit the memory of its run";
+              : *status == ZD_NO_MEMORY ? NULL : "a saved state must fit the memory of its run";
     }
     zd_run_free(run);
     *status = wrong ? ZD_BAD_ARGUMENT : ZD_NO_MEMORY;

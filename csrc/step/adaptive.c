@@ -41,7 +41,7 @@ static void set_scale(zd_step_loop *loop, const double *a, const double *b)
 static double bounded(const zd_step_loop *loop, double h)
 {
     double longest = loop->settings->max_step > 0 ? loop->settings->max_step : INFINITY;
-    return fmin(fmin(h, longest), loop->end - loop->stepper->t);
+    return fmin(fmin(h, longest), zd_step_loop_latest(loop) - loop->stepper->t);
 }
 
 /* Size of the first step, from the rate of the state and its change. Times are scaled by the former, so that their unit does not
@@ -162,16 +162,17 @@ static int begin(zd_step_loop *loop)
     if (most && loop->step > most) return ZD_TOO_MANY_STEPS;
     loop->control.norm = 0;
     loop->control.largest_factor = ZD_MAX_FACTOR;
-    loop->control.smallest = 16 * 0x1p-52 * fmax(fabs(loop->stepper->t), isfinite(loop->end) ? fabs(loop->end) : 0);
+    const double latest = zd_step_loop_latest(loop);
+    loop->control.smallest = 16 * 0x1p-52 * fmax(fabs(loop->stepper->t), isfinite(latest) ? fabs(latest) : 0);
     return predict_step(loop);
 }
 
 static int next(zd_step_loop *loop, zd_attempt *attempt)
 {
-    const double t = loop->stepper->t, h = loop->control.bounded = bounded(loop, loop->control.h);
-    attempt->t1 = h == loop->end - t ? loop->end : t + h;
+    const double t = loop->stepper->t, latest = zd_step_loop_latest(loop), h = loop->control.bounded = bounded(loop, loop->control.h);
+    attempt->t1 = h == latest - t ? latest : t + h;
     attempt->h = attempt->t1 - t;
-    attempt->forced = attempt->t1 == loop->end || loop->parts;
+    attempt->forced = attempt->t1 == latest || loop->parts;
     return attempt->t1 > t ? ZD_DONE : ZD_TINY_STEP;
 }
 
@@ -197,7 +198,7 @@ static int accept(zd_step_loop *loop)
     const double h = control->bounded, intended = control->h;
     const int status = watch_collapse(loop);
     control->h = by_move(control, h, h * fmin(control->largest_factor, factor(loop, control->norm)));
-    if (loop->stepper->t == loop->end) control->h = fmax(control->h, intended);     /* an open run goes on as if it had not been cut */
+    if (loop->stepper->t == zd_step_loop_latest(loop)) control->h = fmax(control->h, intended);     /* as if it had not been cut */
     if (integrator->limit_step) control->h = integrator->limit_step(loop->stepper->memory, control->h);
     zd_step_histogram_step(&control->histogram, loop->stepper->t);
     return status;

@@ -1,6 +1,7 @@
 /* Step loop of a run: its progress, and the control of its next step. */
 #pragma once
 
+#include <math.h>
 #include <stdint.h>
 
 #include "../paths/path.h"
@@ -103,6 +104,7 @@ struct zd_step_loop {
     zd_safeguards *safeguards;
     const zd_step_sizes *sizes;     /* fixed or adaptive */
     double end;             /* s: t1 of the settings, the time of a terminal event, or that to which an open run advances; INFINITY: none */
+    double limit;           /* s: time that the current step does not pass, the end of an input's ramp; INFINITY: none */
     int64_t step;           /* number of the current step, from 1 */
     int64_t steps;          /* number of the fixed step that ends at `end`; 0: none */
     double t_begin;         /* s: time from which fixed steps are counted */
@@ -120,10 +122,13 @@ static inline int zd_step_loop_is_due(const zd_step_loop *loop, int64_t every)
     return zd_is_one_of(every, loop->step) || loop->stepper->t == loop->end || loop->parts;
 }
 
+/* s: latest end of the current step */
+static inline double zd_step_loop_latest(const zd_step_loop *loop) { return fmin(loop->end, loop->limit); }
+
 /* True if all enabled corrections were applied at the end of the step. */
 static inline int zd_step_loop_is_corrected(const zd_step_loop *loop)
 {
-    return zd_motion_is_corrected(loop->motion, loop->step) || loop->stepper->t == loop->end || loop->parts;
+    return zd_motion_is_corrected(loop->motion, loop->step) || loop->stepper->t == zd_step_loop_latest(loop) || loop->parts;
 }
 
 /* Adaptive steps. */

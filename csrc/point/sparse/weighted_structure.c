@@ -65,7 +65,8 @@ static counts count_all(const zd_layout *layout)
 /* The pattern of S, on memory of its own: block rows are the groups, then the welds. */
 static zd_pattern lay_out_pattern(zd_arena *arena, const zd_layout *layout, const counts *all)
 {
-    int *size = zd_arena_ints(arena, all->rows), *begin = zd_arena_ints(arena, all->cliques + 1), *member = zd_arena_ints(arena, all->members);
+    int *size = zd_arena_ints(arena, all->rows), *begin = zd_arena_ints(arena, all->cliques + 1);
+    int *member = zd_arena_ints(arena, all->members);
     zd_pattern pattern = {all->rows, size, all->cliques, begin, member};
     if (!arena->base) return pattern;
     for (int g = 0; g < layout->groups; g++) size[g] = layout->row_at[g + 1] - layout->row_at[g];
