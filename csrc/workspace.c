@@ -1,6 +1,7 @@
 /* Memory: the only file that allocates. */
 #include "workspace.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 #ifdef _WIN32
@@ -107,7 +108,9 @@ void *zd_store_create(zd_store *store, void *(*create)(zd_arena *arena, const vo
     zd_memory *memory = zd_store_add(store, counting.used);
     if (!memory) return NULL;
     zd_arena arena = zd_arena_in(memory);
-    return create(&arena, of);
+    void *made = create(&arena, of);
+    assert(arena.used == counting.used);
+    return made;
 }
 
 void zd_store_release(zd_store *store)

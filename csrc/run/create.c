@@ -1,6 +1,7 @@
 /* Creation of a run: its memory, its components, and the checks of its start. */
 #include "run.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -128,6 +129,7 @@ static zd_run *lay_out(const zd_system *system, const zd_settings *settings, int
     }
     zd_arena arena = zd_arena_in(memory);
     zd_run *run = create_run(&arena, system, settings, &independent);
+    assert(arena.used == counting.used);
     run->memory = memory;
     return run;
 }

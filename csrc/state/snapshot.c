@@ -18,7 +18,7 @@ zd_snapshot zd_snapshot_create(zd_arena *arena, const zd_stepper *stepper)
         .accelerations = {
             .vdot = zd_arena_doubles(arena, nv),
             .lambda = zd_arena_doubles(arena, (size_t)zd_constraints(&motion->system)),
-            .pivots = motion->path.pivots ? zd_arena_doubles(arena, nv) : NULL,
+            .pivots = zd_arena_doubles(arena, nv),
         },
         .of_integrator = zd_arena_bytes(arena, stepper->memory_of_integrator.bytes),
         .of_chosen = zd_arena_bytes(arena, motion->memory_of_chosen.bytes),
@@ -40,7 +40,7 @@ static void take_accelerations(zd_snapshot *self, const zd_motion *motion)
     to->smallest = motion->path.smallest;
     zd_copy_all(motion->system.nv, point->vdot, to->vdot);
     zd_copy_all(zd_constraints(&motion->system), point->lambda, to->lambda);
-    if (to->pivots) zd_copy_all(motion->system.nv, motion->path.pivots, to->pivots);
+    if (to->order >= 0) zd_copy_all(motion->system.nv, motion->path.pivots, to->pivots);
 }
 
 static int restore_accelerations(const zd_snapshot *self, zd_motion *motion)
@@ -54,7 +54,7 @@ static int restore_accelerations(const zd_snapshot *self, zd_motion *motion)
     motion->path.smallest = from->smallest;
     zd_copy_all(motion->system.nv, from->vdot, motion->point->vdot);
     zd_copy_all(zd_constraints(&motion->system), from->lambda, motion->point->lambda);
-    if (from->pivots) zd_copy_all(motion->system.nv, from->pivots, motion->path.pivots);
+    if (from->order >= 0) zd_copy_all(motion->system.nv, from->pivots, motion->path.pivots);
     return ZD_DONE;
 }
 
