@@ -40,8 +40,9 @@ def test_cheap_ones_continue_for_many_steps():
 
 @pytest.mark.parametrize("options", [
     {"step": 0.004}, {"step": 0.004, "closed_form": False}, {"rtol": 1e-10, "atol": 1e-12, "max_step": 0.01},
-    {"integrator": "radau", "step": 0.01}, {"formulation": "mixed", "step": 0.004, "closed_form": False},
-    {"formulation": "mixed", "rtol": 1e-10, "atol": 1e-12, "max_step": 0.01}], ids=str)
+    {"integrator": "radau", "step": 0.01}, {"step": 0.01, "t_eval": np.linspace(0.001, 0.19, 99)},
+    {"formulation": "mixed", "step": 0.004, "closed_form": False},
+    {"formulation": "mixed", "rtol": 1e-10, "atol": 1e-12, "max_step": 0.01}], ids=",".join)
 def test_a_run_that_is_saved_at_every_sample_has_the_bits_of_one(bar, options):
     case = saved_runs.of(bar, options, 0.2)
     run, parts, expected = case.begun(), [], _gateway.Record(case.core, 500)
