@@ -250,12 +250,8 @@ static uint64_t get(source *self) { return self->next < self->count ? word_at(se
 /* The word that an entry of one address stands for. */
 static uint64_t decoded(const zd_run *run, enum kind kind, uint64_t first, uint64_t offset)
 {
-    switch (kind) {
-    case IN_RUN: return first < (uint64_t)count_blocks(run) ? (uint64_t)((uintptr_t)block_of(run, (int)first) + offset) : 0;
-    case SAME: return first < sizeof run->motion.system / WORD ? word_at(&run->motion.system, first) : 0;
-    case NUMBERS: break;
-    }
-    return 0;
+    if (kind == IN_RUN) return first < (uint64_t)count_blocks(run) ? (uint64_t)((uintptr_t)block_of(run, (int)first) + offset) : 0;
+    return first < sizeof run->motion.system / WORD ? word_at(&run->motion.system, first) : 0;
 }
 
 /* Applies the entries of a block; 0: they do not fit it. */
@@ -273,6 +269,9 @@ static int apply(const zd_run *run, zd_memory *block, source *from)
     return 1;
 }
 
+#define OF_UNIT(name) "a saved state must be restored with the vector unit that it was saved with, which is " name
+static const char *const UNITS[] = {OF_UNIT("none"), OF_UNIT("baseline"), OF_UNIT("avx2"), OF_UNIT("avx512")};
+
 static const char *wrong_header(const uint64_t *header, const unsigned char *block, size_t bytes, const zd_system *system,
                                 const zd_settings *settings, const char *fingerprint)
 {
@@ -285,7 +284,7 @@ static const char *wrong_header(const uint64_t *header, const unsigned char *blo
         || header[VELOCITIES] != (uint64_t)system->nv || header[PLACES] != words_of_places(settings->inputs))
         return "a saved state must be of the same system, with the same parameters and the same version of zerodrift";
     if (header[UNIT] != (uint64_t)(zd_closed_form_unit(system, settings) + 1))
-        return "a saved state must be restored with the vector unit of the processor that it was saved with";
+        return UNITS[header[UNIT] % (sizeof UNITS / sizeof *UNITS)];
     return NULL;
 }
 
