@@ -5,6 +5,7 @@
  */
 #include "run.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "../paths/choose.h"
@@ -101,7 +102,7 @@ static int make_general_step(zd_resample *self, int64_t sample)
 
 /* Repeats the step from a sample on each evaluation path until the next sample is reproduced bit for bit, as the run may have left the
  * closed-form path in it. If neither reproduces it, the step in closed form stands. */
-static int make_again(zd_resample *self, int64_t sample)
+static int make_on_each_path(zd_resample *self, int64_t sample)
 {
     int status = begin_from_before(self, sample);
     if (!status) status = make_step(self, sample);
@@ -110,6 +111,29 @@ static int make_again(zd_resample *self, int64_t sample)
     self->is_general = status || (!general_status && is_at(self, sample + 1));
     if (self->is_general) return general_status;
     status = begin(self, sample, 0);
+    return status ? status : make_step(self, sample);
+}
+
+/* True if the repeated step ends within the tolerance of a sample. */
+static int is_near(const zd_resample *self, int64_t sample)
+{
+    const zd_point *point = self->run->motion.point;
+    const zd_settings *settings = &self->run->settings;
+    const double *p = sample_of(self->saved, self->saved->p, point->system->nq, sample);
+    int is = 1;
+    for (int i = 0; i < point->system->nq; i++) is &= fabs(point->p[i] - p[i]) <= settings->atol + settings->rtol * fabs(p[i]);
+    return is;
+}
+
+/* The same again in (p, v) if it ends elsewhere, as the run had chosen other independent variables before the sample. */
+static int make_again(zd_resample *self, int64_t sample)
+{
+    zd_stepper *stepper = &self->run->stepper;
+    zd_variables_restore(stepper);
+    int status = make_on_each_path(self, sample);
+    if (!stepper->dependent.formulation || !zd_is_adaptive(&self->run->loop) || (!status && is_near(self, sample + 1))) return status;
+    zd_closed_form_leave(&self->run->motion);
+    status = zd_variables_use_dependent(stepper);
     return status ? status : make_step(self, sample);
 }
 
