@@ -5,10 +5,16 @@
 enum { CLOCK_EVERY = 16 };      /* steps between readings of the clock */
 static const double SLICE = 0.03;   /* s: time slice of zd_run_step() */
 
+/* True if a step has nothing before it and nothing after it except its sample. */
+static int is_plain(const zd_settings *settings)
+{
+    return !settings->t_eval && !settings->events && !settings->inputs && !settings->is_open;
+}
+
 static int take_step(zd_run *run)
 {
     const zd_settings *settings = &run->settings;
-    int status = settings->is_open || settings->inputs ? zd_run_begin_step(run) : ZD_DONE;
+    int status = zd_run_begin_step(run);
     if (status) return status;
     if (settings->t_eval || settings->events) zd_output_save_start(&run->output);
     if (settings->events) zd_watch_before(&run->watch);
@@ -34,25 +40,24 @@ static int begin(zd_run *run, zd_record *record)
     return save(run, record);
 }
 
-static int is_over(const zd_run *run)
+static int has_all_samples(const zd_run *run)
 {
-    const zd_settings *settings = &run->settings;
-    return run->stepper.t == run->loop.end || run->loop.step >= run->goal.step
-        || (settings->t_eval && !settings->events && zd_output_is_complete(&run->output));
+    return run->settings.t_eval && !run->settings.events && zd_output_is_complete(&run->output);
 }
 
 int zd_run_advance(zd_run *run, zd_record *record, double seconds)
 {
     const double deadline = zd_seconds_now() + seconds;
+    const int plain = is_plain(&run->settings);
     int64_t clock_step = (run->loop.step / CLOCK_EVERY + 1) * CLOCK_EVERY;    /* a slice makes at least one step */
     int status = run->outcome.status ? run->outcome.status : begin(run, record);
     if (!status && zd_inputs_read(run)) return ZD_BAD_INPUT;
-    while (!status && !is_over(run)) {
+    while (!status && run->stepper.t != run->loop.end && run->loop.step < run->goal.step && (plain || !has_all_samples(run))) {
         if (run->loop.step == clock_step) {
             if (zd_seconds_now() >= deadline) return ZD_PAUSED;
             clock_step += CLOCK_EVERY;
         }
-        status = take_step(run);
+        status = plain ? zd_step(&run->loop) : take_step(run);
         if (!status && record) status = save(run, record);
     }
     return status == ZD_FULL ? status : zd_run_finish(run, status);

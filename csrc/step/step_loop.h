@@ -1,7 +1,6 @@
 /* Step loop of a run: its progress, and the control of its next step. */
 #pragma once
 
-#include <math.h>
 #include <stdint.h>
 
 #include "../paths/path.h"
@@ -123,7 +122,7 @@ static inline int zd_step_loop_is_due(const zd_step_loop *loop, int64_t every)
 }
 
 /* s: latest end of the current step */
-static inline double zd_step_loop_latest(const zd_step_loop *loop) { return fmin(loop->end, loop->limit); }
+static inline double zd_step_loop_latest(const zd_step_loop *loop) { return loop->limit < loop->end ? loop->limit : loop->end; }
 
 /* True if all enabled corrections were applied at the end of the step. */
 static inline int zd_step_loop_is_corrected(const zd_step_loop *loop)
