@@ -22,7 +22,7 @@ void zd_lane_group_check_closely(zd_lane_group *self)
             self->run_of[lane].is_off |= !zd_lane_group_keeps_energy(self, lane);
 }
 
-/* Corrections after the projection, (29), lane by lane, as in motion/correct.c. */
+/* Corrections after the projection, (29), lane by lane, as in motion/motion.c. */
 
 /* Corrects one lane; returns 0 on failure. */
 static int correct(zd_lane_group *self, int lane, double t, double *y, int forced)

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "../output/reading.h"
-#include "../paths/choose.h"
+#include "../paths/path.h"
 #include "../step_limits.h"
 #include "group.h"
 

@@ -110,7 +110,7 @@ typedef struct zd_equations {
     int updates;            /* true if a formulation with update() calls it at corrected positions, and may choose its variables anew */
 } zd_equations;
 
-extern const zd_equations zd_equations_by_matrices;     /* accelerate.c */
+extern const zd_equations zd_equations_by_matrices;     /* motion.c */
 
 /* Range of the bit patterns of doubles of one sign, which as integers are ordered as the magnitudes are. */
 typedef struct zd_range {
@@ -118,7 +118,7 @@ typedef struct zd_range {
 } zd_range;
 
 /* Evaluation path of the current step. On the closed-form path accelerations and projections come from the system's closed-form functions; on
- * the matrix path, from the formulation's leading matrix. The latter always exists and is taken in any doubt: paths/choose.c. */
+ * the matrix path, from the formulation's leading matrix. The latter always exists and is taken in any doubt: paths/path.c. */
 typedef struct zd_path {
     const zd_closed_form *closed_form;
     const zd_equations *equations;  /* in closed form */
@@ -227,7 +227,7 @@ void zd_motion_describe_rate(zd_motion *motion);
 int zd_motion_expand(void *motion, double t, const double *y, double *whole);
 int zd_motion_reduce(void *motion, double t, const double *whole, double *y);
 
-/* accelerate.c: solutions with the leading matrix */
+/* Solutions with the leading matrix */
 int zd_motion_factor_anew(zd_motion *motion);
 /* Factors the leading matrix at the point. */
 static inline int zd_motion_factor(zd_motion *motion)
@@ -301,7 +301,7 @@ int zd_motion_is_corrected(const zd_motion *motion, int64_t step);
 /* True if `step` is a multiple of `every`; for 1 without a division, the slowest of instructions. */
 static inline int zd_is_one_of(int64_t every, int64_t step) { return every == 1 || step % every == 0; }
 
-/* balance.c */
+/* Energy balance */
 int zd_has_energy(const zd_system *system);
 int zd_has_input(const zd_system *system);          /* true if power is put in besides V; its integral is then part of the state */
 static inline double zd_motion_input(const zd_motion *motion) { return motion->balance.input ? *motion->balance.input : 0; }   /* J */

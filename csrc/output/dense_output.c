@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-#include "../paths/choose.h"
+#include "../paths/path.h"
 
 static void *take_chosen(zd_arena *arena, const void *of)
 {

@@ -20,7 +20,7 @@
 
 #include <math.h>
 
-#include "../paths/choose.h"
+#include "../paths/path.h"
 #include "../point/point.h"
 #include "../step_limits.h"
 

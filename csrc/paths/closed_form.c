@@ -7,7 +7,6 @@
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
 #include "../point/point.h"
-#include "choose.h"
 
 /* ---- equations of motion ---- */
 
@@ -145,7 +144,7 @@ static int finish(zd_stepper *stepper, int within)
 
 /* ---- quick check of a step ----
  *
- * It passes nearly all steps, and only those that the full checks of guard.c and choose.c would pass without saving anything. Executed in
+ * It passes nearly all steps, and only those that the full checks of guard.c and path.c would pass without saving anything. Executed in
  * every step, it takes fewer instructions by sufficient conditions: if the detour is at most 1 / ZD_CALM_DETOUR of the displacement, it
  * satisfies the bound by the velocities at both ends, too; and pivots of one sign within a factor of four of one number have neither changed
  * sign nor shrunk by more than 16.
@@ -229,4 +228,4 @@ static int check(zd_stepper *stepper, zd_safeguards *safeguards, int64_t next_st
          : check_fully(stepper, safeguards, next_step, parts);
 }
 
-const zd_evaluation_path zd_closed_form_path = {"closed form", integrate, project, correct_rest, finish, check};
+const zd_evaluation_path zd_closed_form_path = {integrate, project, correct_rest, finish, check};

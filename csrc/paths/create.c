@@ -1,5 +1,4 @@
 /* Closed-form functions for a run, and memory for the closed-form path. */
-#include "choose.h"
 #include "path.h"
 
 const zd_closed_form *zd_closed_form_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit)

@@ -10,12 +10,20 @@ static void write_rates(const zd_motion *motion, const double *v, const double *
     if (motion->balance.input) ydot[motion->rate.size - 1] = power;
 }
 
+/* The state that was read, with its rates and the power, unless NULL */
+static int find_stage(zd_motion *motion, double t, double *power)
+{
+    const zd_path *path = &motion->path;
+    return zd_embed_entries(motion, t, path->state.q != NULL, NULL, &(zd_embedded){.pdot = path->pdot_of_stage, .vdot = path->vdot,
+                                                                                  .power = power});
+}
+
 /* Rate after the point has been moved to the state: the stabilization terms of (6) depend on its p and v. */
 static int rate_of_point(zd_motion *motion, double t, double *ydot)
 {
     zd_path *path = &motion->path;
     zd_point *point = motion->point;
-    int status = zd_embed_entries(motion, t, path->state.q != NULL, NULL, &(zd_embedded){.pdot = path->pdot_of_stage, .vdot = path->vdot});
+    int status = find_stage(motion, t, NULL);
     if (status) return status;
     zd_point_move(point, t, path->p, path->v);
     if (motion->corrections_size) point->known &= ~ZD_ACCELERATED;
@@ -49,9 +57,8 @@ static int rate(void *context, double t, const double *y, double *ydot)
         return ZD_DONE;
     }
     double power = 0;
-    const zd_embedded of_stage = {.pdot = path->pdot_of_stage, .vdot = path->vdot, .power = motion->balance.input ? &power : NULL};
-    int status = zd_embed_entries(motion, t, path->state.q != NULL, NULL, &of_stage);
-    if (!status) write_rates(motion, path->v, of_stage.pdot, of_stage.vdot, power, ydot);
+    int status = find_stage(motion, t, motion->balance.input ? &power : NULL);
+    if (!status) write_rates(motion, path->v, path->pdot_of_stage, path->vdot, power, ydot);
     return status;
 }
 
@@ -66,7 +73,7 @@ static int expand(void *context, double t, const double *y, double *whole)
     zd_motion *motion = context;
     const zd_path *path = &motion->path;
     zd_embed_read(motion, t, y);
-    int status = zd_embed_entries(motion, t, path->state.q != NULL, NULL, &(zd_embedded){.pdot = path->pdot_of_stage, .vdot = path->vdot});
+    int status = find_stage(motion, t, NULL);
     zd_copy_all(motion->system.nq, path->p, whole);
     zd_copy_all(motion->system.nv, path->v, whole + motion->system.nq);
     return status;

@@ -3,8 +3,8 @@
  *
  * On either path the state may be (p, v) or in independent velocities: zd_equations.unpack and finish convert it. In closed form a state
  * (p, v) with pdot = v that the projection alone corrects is integrated, projected and checked in place, with loops of known length:
- * zd_path.is_plain, a branch of each function in closed_form.c. Converted as other states, a step of the four-bar takes 9 % more
- * instructions.
+ * zd_path.is_plain, a branch of each function in closed_form.c. Converted and checked as other states, a step of the four-bar takes 32 %
+ * more instructions.
  */
 #pragma once
 
@@ -14,7 +14,6 @@
 #include "../state/stepper.h"
 
 typedef struct zd_evaluation_path {
-    const char *name;
     int (*integrate)(zd_stepper *self, double h);               /* saves the start, then y from t to t + h */
     /* Moves the point to y at t1 and projects it, (25)-(27), if that is due in this step or `forced` */
     int (*project)(zd_stepper *self, double t1, int64_t step, int forced);
@@ -35,9 +34,15 @@ static inline const zd_evaluation_path *zd_path_of(const zd_motion *motion)
 }
 
 /* Moves the point to y at t and applies all corrections to both: at the end of a step, or `within` one. */
-int zd_path_end(zd_stepper *self, double t, int within);
+static inline int zd_path_end(zd_stepper *self, double t, int within)
+{
+    const zd_evaluation_path *path = zd_path_of(self->motion);
+    int status = path->project(self, t, 0, 1);
+    if (!status && self->motion->others_after_step) status = path->correct(self, 0, 1);
+    return status ? status : path->finish(self, within);
+}
 
-/* converted.c: parts of a step on either path, of a state that is converted. */
+/* matrix.c: parts of a step on either path, of a state that is converted. */
 int zd_path_integrate(zd_stepper *self, double h);
 int zd_path_unpack(zd_stepper *self, double t1);    /* moves the point to the state y at t1 */
 int zd_path_finish(zd_stepper *self, int within);
@@ -51,6 +56,65 @@ static inline int zd_finishes_in_closed_form(const zd_motion *motion) { return m
 static inline int zd_callable_failed(const zd_motion *motion, int status)
 {
     return status == ZD_CALLBACK && motion->path.order < 0 && !motion->point->left_domain;
+}
+
+/* ---- choice of the path of a step, and its end compared with its start in closed form: path.c ---- */
+
+/* create.c: closed-form functions for a single trajectory, of the widest vector unit up to this one; NULL: the system has none for this
+ * formulation. */
+const zd_closed_form *zd_closed_form_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit);
+/* Initializes the closed-form path, if the system has one for the formulation and this vector unit or a narrower one. */
+void zd_closed_form_create(zd_motion *motion, zd_arena *arena, enum zd_unit unit);
+/* Chooses the evaluation path of a step that begins at the point; true: the closed-form path. */
+int zd_closed_form_choose(zd_motion *motion);
+
+/* Takes the path with this elimination order, negative: by matrices, and all that follows from it: functions, rate, ranges of the pivots. */
+void zd_path_take(zd_motion *motion, int order);
+/* Sets the functions and addresses that follow from path and variables, of a state that was restored. */
+void zd_path_bind(zd_motion *motion);
+/* Change to the matrix path; true: from the closed-form path. For a part of a step; for a step from its start, with the counters of the
+ * energy correction restored; for another start with other data, which clears the scales of the pivots. */
+int zd_closed_form_leave(zd_motion *motion);
+int zd_closed_form_leave_step(zd_motion *motion);
+void zd_closed_form_discard(zd_motion *motion);
+/* Chooses the path of a step that begins at the point, to which the motion was moved by steps in closed form elsewhere, as in lanes. */
+int zd_closed_form_resume(zd_motion *motion);
+/* Saves the counters of the energy correction at the start of a step. */
+void zd_closed_form_save_energy(zd_motion *motion);
+/* Computes the scales of the pivots of all orders. */
+void zd_closed_form_find_scales(zd_motion *motion);
+/* zd_comparison of the closed-form path: of the pivots. ZD_SINGULAR: the step must be repeated on the matrix path. */
+int zd_closed_form_compare(zd_safeguards *safeguards, double h, double moved);
+
+/* True if the quick check at the end of the previous step passed: this step then reuses its elimination order. */
+static inline int zd_closed_form_continues(zd_motion *motion)
+{
+    if (!motion->path.continues) return 0;
+    motion->path.continues = 0;
+    if (!(motion->point->known & ZD_ACCELERATED)) return 0;
+    ZD_SIZED(zd_copy, motion->system.nv, motion->path.pivots, motion->path.before);
+    if (motion->corrections > 1) zd_closed_form_save_energy(motion);
+    return 1;
+}
+
+/* Chooses the integrated variables, then the path of a step that begins at the point. *is_left: true if it is the matrix path after steps in
+ * closed form, which do not save their starts for its checks. */
+static inline int zd_path_choose(zd_stepper *stepper, int *is_left)
+{
+    zd_motion *motion = stepper->motion;
+    *is_left = 0;
+    if (zd_closed_form_continues(motion)) return ZD_DONE;
+    int status = motion->formulation == stepper->chosen.formulation ? ZD_DONE : zd_variables_use_chosen(stepper);
+    if (status || !motion->path.closed_form) return status;
+    *is_left = !zd_closed_form_choose(motion) && motion->path.was_taken;
+    if (*is_left) motion->path.was_taken = 0;
+    return ZD_DONE;
+}
+
+static inline void zd_path_count(zd_motion *motion)      /* counts a step that was accepted */
+{
+    motion->statistics.steps++;
+    if (motion->path.order >= 0) motion->statistics.closed_form_steps++;
 }
 
 /* ---- closed form ---- */

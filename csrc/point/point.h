@@ -1,6 +1,7 @@
 /* A point of the motion: all quantities at one (t, p, v), each computed once, at its first request. */
 #pragma once
 
+#include "../linalg/small.h"
 #include "../workspace.h"
 #include "../zerodrift.h"
 
@@ -138,7 +139,11 @@ const char *zd_name_constraint(const zd_system *system, int row, char to[ZD_CONS
 /* Characteristic scales, which make tolerances independent of the units of a system. */
 
 int zd_point_measure(zd_point *point);              /* computes scales and sizes at the present point */
-double zd_point_violation(const zd_point *point);   /* largest |Phi| relative to the size of its constraint; requires Phi */
+/* Largest |Phi| relative to the size of its constraint; requires Phi */
+static inline double zd_point_violation(const zd_point *point)
+{
+    return zd_max_scaled(point->system->mh, point->terms.Phi, point->inverse_size);
+}
 
 /* Cholesky's factors of M, block by block where its structure is declared. */
 

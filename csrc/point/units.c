@@ -140,8 +140,3 @@ int zd_point_measure(zd_point *point)
     point->measured = 1;
     return ZD_DONE;
 }
-
-double zd_point_violation(const zd_point *point)
-{
-    return zd_max_scaled(point->system->mh, point->terms.Phi, point->inverse_size);
-}

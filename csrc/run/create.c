@@ -7,7 +7,7 @@
 
 #include "../constraints/rank.h"
 #include "../motion/motion.h"
-#include "../paths/choose.h"
+#include "../paths/path.h"
 #include "../point/point.h"
 #include "../registry.h"
 #include "../state/stepper.h"

@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "../constraints/rank.h"
-#include "../paths/choose.h"
+#include "../paths/path.h"
 #include "../state/stepper.h"
 
 static int is_fixed(const zd_run *run) { return run->settings.steps == ZD_FIXED_STEPS; }

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "../constraints/limits.h"
-#include "../paths/choose.h"
+#include "../paths/path.h"
 #include "../point/point.h"
 #include "../safeguards/safeguards.h"
 #include "run.h"

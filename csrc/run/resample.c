@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../paths/choose.h"
+#include "../paths/path.h"
 #include "../state/stepper.h"
 #include "../step/step_loop.h"
 
@@ -74,7 +74,13 @@ static int begin(zd_resample *self, int64_t sample, int is_general)
     return status;
 }
 
-/* The same if a closed-form step may have ended at the sample: the acceleration at its end comes from another function, whose rounding may
+static int make_step_from(zd_resample *self, int64_t sample, int is_general)
+{
+    int status = begin(self, sample, is_general);
+    return status ? status : make_step(self, sample);
+}
+
+/* begin(), if a closed-form step may have ended at the sample: the acceleration at its end comes from another function, whose rounding may
  * differ, so that step is repeated first. A step cut short by an event was made from the sample itself. */
 static int begin_from_before(zd_resample *self, int64_t sample)
 {
@@ -82,22 +88,10 @@ static int begin_from_before(zd_resample *self, int64_t sample)
     const int is_cut = self->saved->ends_in_event && sample + 2 == self->saved->samples;
     int status = begin(self, sample, 0);
     if (status || !zd_finishes_in_closed_form(motion) || sample == 0 || is_cut) return status;
-    status = begin(self, sample - 1, 0);
-    if (!status) status = make_step(self, sample - 1);
+    status = make_step_from(self, sample - 1, 0);
     if (status || !is_at(self, sample)) return begin(self, sample, 0);
     zd_closed_form_choose(motion);
     return ZD_DONE;
-}
-
-static int may_have_polynomial(const zd_resample *self)
-{
-    return zd_is_adaptive(&self->run->loop) && self->run->stepper.integrator->prepare_dense;
-}
-
-static int make_general_step(zd_resample *self, int64_t sample)
-{
-    int status = begin(self, sample, 1);
-    return status ? status : make_step(self, sample);
 }
 
 /* Repeats the step from a sample on each evaluation path until the next sample is reproduced bit for bit, as the run may have left the
@@ -107,11 +101,9 @@ static int make_on_each_path(zd_resample *self, int64_t sample)
     int status = begin_from_before(self, sample);
     if (!status) status = make_step(self, sample);
     if ((!status && is_at(self, sample + 1)) || !zd_closed_form_leave(&self->run->motion)) return status;
-    const int general_status = make_general_step(self, sample);
+    const int general_status = make_step_from(self, sample, 1);
     self->is_general = status || (!general_status && is_at(self, sample + 1));
-    if (self->is_general) return general_status;
-    status = begin(self, sample, 0);
-    return status ? status : make_step(self, sample);
+    return self->is_general ? general_status : make_step_from(self, sample, 0);
 }
 
 /* True if the repeated step ends within the tolerance of a sample. */
@@ -142,7 +134,7 @@ static int make_again(zd_resample *self, int64_t sample)
 static int find_path(zd_resample *self, int64_t sample)
 {
     zd_stepper *stepper = &self->run->stepper;
-    const int may_interpolate = may_have_polynomial(self);
+    const int may_interpolate = zd_is_adaptive(&self->run->loop) && stepper->integrator->prepare_dense;
     self->sample = sample;
     self->is_general = self->has_polynomial = 0;
     int status = may_interpolate || zd_has_closed_form(&self->run->motion) ? make_again(self, sample) : ZD_DONE;

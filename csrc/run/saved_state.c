@@ -14,7 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../paths/choose.h"
+#include "../paths/path.h"
 #include "run.h"
 
 #define MAGIC UINT64_C(0x316574617473647a)      /* "zdstate1" on machines with little-endian words, which others refuse */

@@ -8,7 +8,7 @@
 
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
-#include "../paths/choose.h"
+#include "../paths/path.h"
 #include "../point/point.h"
 #include "../registry.h"
 #include "../step/step_loop.h"

@@ -61,14 +61,6 @@ int zd_stepper_make(zd_stepper *self, double h)
          : integrator->step(self->memory, &motion->rate, self->t, h, self->y, &motion->statistics);
 }
 
-void zd_stepper_begin_end(zd_stepper *self, double t1)
-{
-    zd_motion *motion = self->motion;
-    self->t = t1;
-    motion->state = self->y;
-    if (motion->corrections_size) motion->point->known &= ~ZD_ACCELERATED;
-}
-
 int zd_stepper_return(zd_stepper *self)
 {
     zd_motion *motion = self->motion;

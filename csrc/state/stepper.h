@@ -32,8 +32,6 @@ void zd_stepper_create(zd_stepper *self, zd_arena *arena, zd_motion *motion, con
 int zd_stepper_make(zd_stepper *self, double h);
 /* Saves the start of a step of size h, so that it can be undone. */
 void zd_stepper_save_start(zd_stepper *self, double h);
-/* Sets the time at the end of a step, before the point is moved to y. */
-void zd_stepper_begin_end(zd_stepper *self, double t1);
 /* Returns point and y to the start of the step. */
 int zd_stepper_return(zd_stepper *self);
 

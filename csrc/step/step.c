@@ -1,7 +1,7 @@
 /* One step of a run. Numbers of equations are the paper's, notebooks/theory/computation.md; C is the Jacobian of the constraints, and y the
  * integrated state: (p, v), or fewer variables from which these follow. In order:
  *
- *  1. zd_step(): choose the integrated variables and the evaluation path, by matrices or in closed form (paths/choose.c), once for the step;
+ *  1. zd_step(): choose the integrated variables and the evaluation path, by matrices or in closed form (paths/path.c), once for the step;
  *     attempt_sizes(): choose the size h, anew for each attempt (fixed.c, adaptive.c)
  *  2. attempt(), by functions of the path (paths/path.h): integrate, which saves the start of the step and advances y from t to t + h
  *  3. adaptive steps: estimate the error; the attempt ends here if it is too large
@@ -22,7 +22,7 @@
 
 #include <math.h>
 
-#include "../paths/choose.h"
+#include "../paths/path.h"
 
 enum { MAX_HALVINGS = 8 };     /* largest number of halvings of a substep that fails */
 

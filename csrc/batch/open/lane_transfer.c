@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "../../paths/choose.h"
+#include "../../paths/path.h"
 #include "../../step_limits.h"
 
 int zd_lane_may_enter(const zd_open_lanes *self, const zd_run *run)

@@ -105,6 +105,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     const zd_real p0 = p[0], p1 = p[1], p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1], v2 = v[2];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0), added1 = added ? (zd_real)added[1] : ZD_SPLAT(0.0);
+    /* vdot (17) */
     const zd_real x78 = v1 * v1;
     const zd_real x82 = v2 * v2;
     const zd_real x89 = v0 * v0;
@@ -144,6 +145,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     vdot[0] = x248;
     vdot[1] = x254;
     vdot[2] = x259;
+    /* lambda (8); power (28) */
     if (lambda || power) {
         const zd_real x272 = x220 + ZD_FMA(x71, x259, ZD_FMA(k[15], x254, x36 * x248));
         const zd_real x279 = x222 - ZD_FMA(k[18], x259, ZD_FMA(x71, x254, x53 * x248));
@@ -173,6 +175,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_inp
     (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1], p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1], v2 = v[2];
+    /* Phi (3); dp (25a), (26a), (27a); dv (25b), (26b), (27b) */
     const zd_real angle16[ZD_PADDED(3)] = {p1, p0, p2};
     zd_real sine16[ZD_PADDED(3)], cosine16[ZD_PADDED(3)];
     ZD_SINES(3, angle16, sine16, cosine16);
@@ -238,6 +241,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inpu
     (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1], p2 = p[2];
     const zd_real before0 = v[0], before1 = v[1], before2 = v[2];
+    /* Phi (3) */
     const zd_real angle16[ZD_PADDED(3)] = {p1, p0, p2};
     zd_real sine16[ZD_PADDED(3)], cosine16[ZD_PADDED(3)];
     ZD_SINES(3, angle16, sine16, cosine16);
@@ -252,6 +256,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inpu
     Phi[0] = x122;
     Phi[1] = x127;
     if (!(fabs(Phi[0]) <= allowed[0]) || !(fabs(Phi[1]) <= allowed[1])) {
+        /* dp (25a), (26a), (27a) */
         const zd_real x36 = ZD_FMA(sine16[0], sine16[1], cosine16[0] * cosine16[1]) * k[12];
         const zd_real x53 = ZD_FMA(sine16[1], sine16[2], cosine16[1] * cosine16[2]) * k[14];
         const zd_real x71 = ZD_FMA(sine16[0], sine16[2], cosine16[0] * cosine16[2]) * k[17];
@@ -273,6 +278,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inpu
         dp[2] = -ZD_FMA(x257, x327, x212 * x318);
         return ZD_NO_CONVERGENCE;
     }
+    /* dv (25b), (26b), (27b) */
     const zd_real x36 = ZD_FMA(sine16[0], sine16[1], cosine16[0] * cosine16[1]) * k[12];
     const zd_real x53 = ZD_FMA(sine16[1], sine16[2], cosine16[1] * cosine16[2]) * k[14];
     const zd_real x71 = ZD_FMA(sine16[0], sine16[2], cosine16[0] * cosine16[2]) * k[17];
@@ -294,6 +300,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inpu
     const zd_real v0 = before0 - (-x401);
     const zd_real v1 = before1 - ZD_FNMA(x252, x401, x212 * x389);
     const zd_real v2 = before2 - ZD_FNMA(x257, x401, x212 * x394);
+    /* vdot (17) */
     const zd_real x44 = ZD_FNMA(cosine16[1], sine16[2], sine16[1] * cosine16[2]);
     const zd_real x63 = ZD_FNMA(cosine16[0], sine16[2], sine16[0] * cosine16[2]);
     const zd_real x78 = v1 * v1;
@@ -316,6 +323,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inpu
     vdot[0] = x429;
     vdot[1] = x433;
     vdot[2] = x437;
+    /* lambda (8); power (28) */
     if (lambda || power) {
         const zd_real x450 = x220 + ZD_FMA(x71, x437, ZD_FMA(k[15], x433, x36 * x429));
         const zd_real x457 = x222 - ZD_FMA(k[18], x437, ZD_FMA(x71, x433, x53 * x429));
@@ -347,6 +355,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_inp
     (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1], p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1], v2 = v[2];
+    /* Phi (3); dp (25a), (26a), (27a); dv (25b), (26b), (27b) */
     const zd_real angle16[ZD_PADDED(3)] = {p1, p0, p2};
     zd_real sine16[ZD_PADDED(3)], cosine16[ZD_PADDED(3)];
     ZD_SINES(3, angle16, sine16, cosine16);
@@ -413,6 +422,7 @@ ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_input
     const zd_real p0 = p[0], p1 = p[1], p2 = p[2];
     const zd_real before0 = v[0], before1 = v[1], before2 = v[2];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0), added1 = added ? (zd_real)added[1] : ZD_SPLAT(0.0);
+    /* Phi (3) */
     const zd_real angle16[ZD_PADDED(3)] = {p1, p0, p2};
     zd_real sine16[ZD_PADDED(3)], cosine16[ZD_PADDED(3)];
     ZD_SINES(3, angle16, sine16, cosine16);
@@ -427,6 +437,7 @@ ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_input
     Phi[0] = x122;
     Phi[1] = x127;
     if (!(fabs(Phi[0]) <= allowed[0]) || !(fabs(Phi[1]) <= allowed[1])) {
+        /* dp (18) */
         const zd_real x474 = 1.0 / x117;
         const zd_real x475 = x125 * x474;
         const zd_real x484 = ZD_FMS(x116, x475, x123);
@@ -437,6 +448,7 @@ ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_input
         dp[2] = x523;
         return ZD_NO_CONVERGENCE;
     }
+    /* dv (14), (16) */
     const zd_real x385 = ZD_FMA(x116, before2, ZD_FMA(x117, before1, x118 * before0));
     const zd_real x474 = 1.0 / x117;
     const zd_real x475 = x125 * x474;
@@ -446,6 +458,7 @@ ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_input
     const zd_real v0 = before0;
     const zd_real v1 = before1 - (x474 * ZD_FNMA(x116, x561, x385));
     const zd_real v2 = before2 - x561;
+    /* vdot (17) */
     const zd_real x36 = ZD_FMA(sine16[0], sine16[1], cosine16[0] * cosine16[1]) * k[12];
     const zd_real x44 = ZD_FNMA(cosine16[1], sine16[2], sine16[1] * cosine16[2]);
     const zd_real x53 = ZD_FMA(sine16[1], sine16[2], cosine16[1] * cosine16[2]) * k[14];
@@ -474,6 +487,7 @@ ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_input
     vdot[0] = x583;
     vdot[1] = x586;
     vdot[2] = x589;
+    /* lambda (8); power (28) */
     if (lambda || power) {
         const zd_real x610 = x474 * (x220 + ZD_FMA(x71, x589, ZD_FMA(k[15], x586, x36 * x583)));
         const zd_real x615 = x485 * ZD_FMA(x116, x610, x222 - ZD_FMA(k[18], x589, ZD_FMA(x71, x586, x53 * x583)));
@@ -481,6 +495,7 @@ ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_input
         if (lambda) lambda[1] = ZD_FMS(x475, x615, x610);
         if (power) power[0] = ZD_SPLAT(0.0);
     }
+    /* D (16) */
     if (pivots || D) {
         if (pivots) pivots[0] = x117;
         if (pivots) pivots[1] = x484;

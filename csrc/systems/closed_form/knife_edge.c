@@ -94,6 +94,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     const zd_real p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1], v2 = v[2];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
+    /* vdot (17) */
     const zd_real angle7[ZD_PADDED(1)] = {p2};
     zd_real sine7[ZD_PADDED(1)], cosine7[ZD_PADDED(1)];
     ZD_SINES(1, angle7, sine7, cosine7);
@@ -107,6 +108,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     vdot[0] = x72;
     vdot[1] = x81;
     vdot[2] = ZD_SPLAT(0.0);
+    /* lambda (8); power (28) */
     if (lambda || power) {
         if (lambda) lambda[0] = x45 * (k[0] * x81);
         if (power) power[0] = ZD_SPLAT(0.0);
@@ -134,6 +136,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_inp
     (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1];
+    /* dp (25a), (26a), (27a); dv (25b), (26b), (27b) */
     const zd_real angle7[ZD_PADDED(1)] = {p2};
     zd_real sine7[ZD_PADDED(1)], cosine7[ZD_PADDED(1)];
     ZD_SINES(1, angle7, sine7, cosine7);
@@ -174,6 +177,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inpu
     (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p2 = p[2];
     const zd_real before0 = v[0], before1 = v[1], before2 = v[2];
+    /* dv (25b), (26b), (27b) */
     const zd_real angle7[ZD_PADDED(1)] = {p2};
     zd_real sine7[ZD_PADDED(1)], cosine7[ZD_PADDED(1)];
     ZD_SINES(1, angle7, sine7, cosine7);
@@ -188,6 +192,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inpu
     const zd_real v0 = before0 - x109;
     const zd_real v1 = before1 - ZD_FNMA(x45, x106, x78 * x109);
     const zd_real v2 = before2;
+    /* vdot (17) */
     const zd_real x16 = ZD_FMA(sine7[0], v1, cosine7[0] * v0) * v2;
     const zd_real x118 = x47 * ZD_FNMA(x16, x30, cosine7[0] * (k[2] * cosine7[0]));
     const zd_real x123 = ZD_FMA(x78, x118, x16 * x45);
@@ -197,6 +202,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inpu
     vdot[0] = x118;
     vdot[1] = x123;
     vdot[2] = ZD_SPLAT(0.0);
+    /* lambda (8); power (28) */
     if (lambda || power) {
         if (lambda) lambda[0] = x45 * (k[0] * x123);
         if (power) power[0] = ZD_SPLAT(0.0);
@@ -230,6 +236,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_
     const zd_real p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1], v2 = v[2];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
+    /* vdot (17) */
     const zd_real angle7[ZD_PADDED(1)] = {p2};
     zd_real sine7[ZD_PADDED(1)], cosine7[ZD_PADDED(1)];
     ZD_SINES(1, angle7, sine7, cosine7);
@@ -243,6 +250,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_
     vdot[0] = x138;
     vdot[1] = x134;
     vdot[2] = ZD_SPLAT(0.0);
+    /* lambda (8); power (28) */
     if (lambda || power) {
         if (lambda) lambda[0] = x60 * ZD_FNMA(k[0], x138, k[2]);
         if (power) power[0] = ZD_SPLAT(0.0);
@@ -270,6 +278,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_inp
     (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1];
+    /* dp (25a), (26a), (27a); dv (25b), (26b), (27b) */
     const zd_real angle7[ZD_PADDED(1)] = {p2};
     zd_real sine7[ZD_PADDED(1)], cosine7[ZD_PADDED(1)];
     ZD_SINES(1, angle7, sine7, cosine7);
@@ -310,6 +319,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_1)(const void *data, const double *at_inpu
     (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p2 = p[2];
     const zd_real before0 = v[0], before1 = v[1], before2 = v[2];
+    /* dv (25b), (26b), (27b) */
     const zd_real angle7[ZD_PADDED(1)] = {p2};
     zd_real sine7[ZD_PADDED(1)], cosine7[ZD_PADDED(1)];
     ZD_SINES(1, angle7, sine7, cosine7);
@@ -324,6 +334,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_1)(const void *data, const double *at_inpu
     const zd_real v0 = before0 - ZD_FNMA(x136, x158, x60 * x106);
     const zd_real v1 = before1 - (-x158);
     const zd_real v2 = before2;
+    /* vdot (17) */
     const zd_real x16 = ZD_FMA(sine7[0], v1, cosine7[0] * v0) * v2;
     const zd_real x169 = x61 * ZD_FMA(x16, x28, sine7[0] * (k[2] * cosine7[0]));
     const zd_real x173 = ZD_FNMA(x16, x60, x136 * x169);
@@ -333,6 +344,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_1)(const void *data, const double *at_inpu
     vdot[0] = x173;
     vdot[1] = x169;
     vdot[2] = ZD_SPLAT(0.0);
+    /* lambda (8); power (28) */
     if (lambda || power) {
         if (lambda) lambda[0] = x60 * ZD_FNMA(k[0], x173, k[2]);
         if (power) power[0] = ZD_SPLAT(0.0);

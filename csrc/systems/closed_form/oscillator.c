@@ -92,7 +92,9 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     const zd_real t = *time;
     (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0];
+    /* vdot (17) */
     vdot[0] = -((p0 * k[1]) * k[4]);
+    /* power (28) */
     if (power) {
         power[0] = ZD_SPLAT(0.0);
     }
@@ -126,9 +128,12 @@ ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_input
     (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)added, (void)v, (void)Phi, (void)dp, (void)D, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0];
     const zd_real before0 = v[0];
+    /* dv (14), (16) */
     const zd_real v0 = before0;
+    /* vdot (17) */
     v[0] = v0;
     vdot[0] = -((p0 * k[1]) * k[4]);
+    /* power (28) */
     if (power) {
         power[0] = ZD_SPLAT(0.0);
     }

@@ -103,6 +103,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
+    /* vdot (17) */
     const zd_real x19 = p0 * k[6];
     const zd_real x20 = p1 * k[6];
     const zd_real x40 = k[1] * x20;
@@ -114,6 +115,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     const zd_real x83 = ZD_FNMA(x77, x20 * x49, x49 * x68);
     vdot[0] = x83;
     vdot[1] = x77;
+    /* lambda (8); power (28) */
     if (lambda || power) {
         if (lambda) lambda[0] = -(x49 * (k[1] * x83));
         if (power) power[0] = ZD_SPLAT(0.0);
@@ -140,6 +142,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_inp
     (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
+    /* Phi (3); dp (25a), (26a), (27a); dv (25b), (26b), (27b) */
     const zd_real x18 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
     const zd_real x19 = p0 * k[6];
     const zd_real x20 = p1 * k[6];
@@ -181,9 +184,11 @@ ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inpu
     (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real before0 = v[0], before1 = v[1];
+    /* Phi (3) */
     const zd_real x18 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
     Phi[0] = x18;
     if (!(fabs(Phi[0]) <= allowed[0])) {
+        /* dp (25a), (26a), (27a) */
         const zd_real x19 = p0 * k[6];
         const zd_real x20 = p1 * k[6];
         const zd_real x40 = k[1] * x20;
@@ -196,6 +201,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inpu
         dp[1] = x99;
         return ZD_NO_CONVERGENCE;
     }
+    /* dv (25b), (26b), (27b) */
     const zd_real x19 = p0 * k[6];
     const zd_real x20 = p1 * k[6];
     const zd_real x40 = k[1] * x20;
@@ -207,6 +213,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inpu
     const zd_real x122 = x48 * (x19 * (x40 * x118));
     const zd_real v0 = before0 - ZD_FNMA(x79, x122, x49 * x118);
     const zd_real v1 = before1 - x122;
+    /* vdot (17) */
     const zd_real x28 = k[7] * (ZD_FMA(v1, v1, v0 * v0) * 2.0);
     const zd_real x134 = x48 * (x19 * ZD_FMA(x28, x40, x19 * (k[5] * x19)));
     const zd_real x140 = ZD_FNMA(x28, x49, x79 * x134);
@@ -214,6 +221,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inpu
     v[1] = v1;
     vdot[0] = x140;
     vdot[1] = -x134;
+    /* lambda (8); power (28) */
     if (lambda || power) {
         if (lambda) lambda[0] = -(x49 * (k[1] * x140));
         if (power) power[0] = ZD_SPLAT(0.0);
@@ -246,6 +254,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
+    /* vdot (17) */
     const zd_real x19 = p0 * k[6];
     const zd_real x20 = p1 * k[6];
     const zd_real x42 = k[1] * x19;
@@ -257,6 +266,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_
     const zd_real x163 = ZD_FNMA(x155, x19 * x65, x65 * x68);
     vdot[0] = x155;
     vdot[1] = x163;
+    /* lambda (8); power (28) */
     if (lambda || power) {
         if (lambda) lambda[0] = -(x65 * ZD_FMA(k[1], x163, k[5]));
         if (power) power[0] = ZD_SPLAT(0.0);
@@ -283,6 +293,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_inp
     (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
+    /* Phi (3); dp (25a), (26a), (27a); dv (25b), (26b), (27b) */
     const zd_real x18 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
     const zd_real x19 = p0 * k[6];
     const zd_real x20 = p1 * k[6];
@@ -324,9 +335,11 @@ ZD_ON_UNIT static int ZD_NAMED(finish_1)(const void *data, const double *at_inpu
     (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real before0 = v[0], before1 = v[1];
+    /* Phi (3) */
     const zd_real x18 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
     Phi[0] = x18;
     if (!(fabs(Phi[0]) <= allowed[0])) {
+        /* dp (25a), (26a), (27a) */
         const zd_real x19 = p0 * k[6];
         const zd_real x20 = p1 * k[6];
         const zd_real x42 = k[1] * x19;
@@ -339,6 +352,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_1)(const void *data, const double *at_inpu
         dp[1] = ZD_FNMA(x159, x174, x18 * x65);
         return ZD_NO_CONVERGENCE;
     }
+    /* dv (25b), (26b), (27b) */
     const zd_real x19 = p0 * k[6];
     const zd_real x20 = p1 * k[6];
     const zd_real x42 = k[1] * x19;
@@ -350,6 +364,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_1)(const void *data, const double *at_inpu
     const zd_real x192 = x64 * (x20 * (x42 * x118));
     const zd_real v0 = before0 - x192;
     const zd_real v1 = before1 - ZD_FNMA(x159, x192, x65 * x118);
+    /* vdot (17) */
     const zd_real x28 = k[7] * (ZD_FMA(v1, v1, v0 * v0) * 2.0);
     const zd_real x202 = x64 * (x20 * ZD_FNMA(x28, x42, x20 * (k[5] * x19)));
     const zd_real x208 = ZD_FMA(x159, x202, x28 * x65);
@@ -357,6 +372,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_1)(const void *data, const double *at_inpu
     v[1] = v1;
     vdot[0] = x202;
     vdot[1] = -x208;
+    /* lambda (8); power (28) */
     if (lambda || power) {
         if (lambda) lambda[0] = x65 * ZD_FMS(k[1], x208, k[5]);
         if (power) power[0] = ZD_SPLAT(0.0);
@@ -385,6 +401,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_2)(const void *data, const double *at_inp
     (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
+    /* Phi (3); dp (25a), (26a), (27a); dv (25b), (26b), (27b) */
     const zd_real x18 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
     const zd_real x19 = p0 * k[6];
     const zd_real x20 = p1 * k[6];
@@ -430,9 +447,11 @@ ZD_ON_UNIT static int ZD_NAMED(embed_2)(const void *data, const double *at_input
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real before0 = v[0], before1 = v[1];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
+    /* Phi (3) */
     const zd_real x18 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
     Phi[0] = x18;
     if (!(fabs(Phi[0]) <= allowed[0])) {
+        /* dp (18) */
         const zd_real x19 = p0 * k[6];
         const zd_real x20 = p1 * k[6];
         const zd_real x40 = k[1] * x20;
@@ -443,6 +462,7 @@ ZD_ON_UNIT static int ZD_NAMED(embed_2)(const void *data, const double *at_input
         dp[1] = ZD_SPLAT(0.0);
         return ZD_NO_CONVERGENCE;
     }
+    /* dv (14), (16) */
     const zd_real x19 = p0 * k[6];
     const zd_real x20 = p1 * k[6];
     const zd_real x40 = k[1] * x20;
@@ -451,6 +471,7 @@ ZD_ON_UNIT static int ZD_NAMED(embed_2)(const void *data, const double *at_input
     const zd_real x49 = x46 * x48;
     const zd_real v0 = before0 - (x49 * ZD_FMA(x20, before1, x19 * before0));
     const zd_real v1 = before1;
+    /* vdot (17) */
     const zd_real x68 = ZD_FNMA(k[7], ZD_FMA(v1, v1, v0 * v0) * 2.0, added0);
     const zd_real x77 = x48 * (x19 * ZD_FNMA(x19, k[5] * x19, x40 * x68));
     const zd_real x79 = x20 * x49;
@@ -459,10 +480,12 @@ ZD_ON_UNIT static int ZD_NAMED(embed_2)(const void *data, const double *at_input
     v[1] = v1;
     vdot[0] = x83;
     vdot[1] = x77;
+    /* lambda (8); power (28) */
     if (lambda || power) {
         if (lambda) lambda[0] = -(x49 * (k[1] * x83));
         if (power) power[0] = ZD_SPLAT(0.0);
     }
+    /* D (16) */
     if (pivots || D) {
         if (pivots) pivots[0] = x19;
         if (pivots) pivots[1] = ZD_SPLAT(1.0);
@@ -488,6 +511,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_3)(const void *data, const double *at_inp
     (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
+    /* Phi (3); dp (25a), (26a), (27a); dv (25b), (26b), (27b) */
     const zd_real x18 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
     const zd_real x19 = p0 * k[6];
     const zd_real x20 = p1 * k[6];
@@ -533,9 +557,11 @@ ZD_ON_UNIT static int ZD_NAMED(embed_3)(const void *data, const double *at_input
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real before0 = v[0], before1 = v[1];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
+    /* Phi (3) */
     const zd_real x18 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
     Phi[0] = x18;
     if (!(fabs(Phi[0]) <= allowed[0])) {
+        /* dp (18) */
         const zd_real x19 = p0 * k[6];
         const zd_real x20 = p1 * k[6];
         const zd_real x42 = k[1] * x19;
@@ -546,6 +572,7 @@ ZD_ON_UNIT static int ZD_NAMED(embed_3)(const void *data, const double *at_input
         dp[1] = x18 * x65;
         return ZD_NO_CONVERGENCE;
     }
+    /* dv (14), (16) */
     const zd_real x19 = p0 * k[6];
     const zd_real x20 = p1 * k[6];
     const zd_real x42 = k[1] * x19;
@@ -554,6 +581,7 @@ ZD_ON_UNIT static int ZD_NAMED(embed_3)(const void *data, const double *at_input
     const zd_real x65 = x46 * x64;
     const zd_real v0 = before0;
     const zd_real v1 = before1 - (x65 * ZD_FMA(x20, before1, x19 * before0));
+    /* vdot (17) */
     const zd_real x68 = ZD_FNMA(k[7], ZD_FMA(v1, v1, v0 * v0) * 2.0, added0);
     const zd_real x155 = x64 * (x20 * ZD_FMA(x20, k[5] * x19, x42 * x68));
     const zd_real x159 = x19 * x65;
@@ -562,10 +590,12 @@ ZD_ON_UNIT static int ZD_NAMED(embed_3)(const void *data, const double *at_input
     v[1] = v1;
     vdot[0] = x155;
     vdot[1] = x163;
+    /* lambda (8); power (28) */
     if (lambda || power) {
         if (lambda) lambda[0] = -(x65 * ZD_FMA(k[1], x163, k[5]));
         if (power) power[0] = ZD_SPLAT(0.0);
     }
+    /* D (16) */
     if (pivots || D) {
         if (pivots) pivots[0] = x20;
         if (pivots) pivots[1] = ZD_SPLAT(1.0);

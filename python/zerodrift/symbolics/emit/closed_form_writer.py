@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from ..elimination.steps import Elimination, Order, Unwritten
@@ -23,6 +24,9 @@ FINISH = (AT, "    double *to_v, const double *where_allowed, double *to_Phi, do
 OPTIONAL = ("lambda", "power"), ("pivots", "D")     # outputs that may not be wanted, those together that share something
 EMBED = (AT, "    double *to_v, const double *with_added, const double *where_allowed, double *to_Phi, double *to_dp,",
          "    double *to_D, double *to_pdot, double *to_vdot, double *to_lambda, double *to_power, double *to_pivots)")
+EQUATIONS = {"Phi": "(3)", "dp": "(25a), (26a), (27a)", "dv": "(25b), (26b), (27b)", "pdot": "(1)", "vdot": "(17)", "D": "(16)",
+             "lambda": "(8)", "power": "(28)"}      # of outputs; with independent velocities, these:
+EQUATIONS_OF_EMBED = EQUATIONS | {"dp": "(18)", "dv": "(14), (16)"}
 HEADS = {"accelerate": ACCELERATE, "correct": CORRECT, "finish": FINISH, "embed": EMBED}
 FOR_ONE = "finish", "embed"     # of several trajectories, some may have to be iterated and others not
 
@@ -134,6 +138,13 @@ def _constants_function(lowering: Lowering, stored: dict[int, int], offset: int,
             *indented(body or ["(void)k;"]), "}"]
 
 
+def _equations(program: _Program, names: Iterable[str]) -> list[str]:
+    """A comment that cites the equations of these outputs."""
+    of = EQUATIONS_OF_EMBED if "D" in program.outputs else EQUATIONS
+    cited = [f"{name} {of[name]}" for name in names if name in of and program.outputs.get(name)]
+    return [f"/* {'; '.join(cited)} */"] if cited else []
+
+
 def _writer(program: _Program, offset: int) -> LaneWriter:
     writer = LaneWriter(program)
     writer.names |= {number: f"k[{offset + place}]" for number, place in program.stored.items()}
@@ -144,13 +155,14 @@ def _function(program: _Program, head: list[str], offset: int, data: str) -> lis
     writer = _writer(program, offset)
     first = [name for name in program.outputs if name not in (*OPTIONAL[0], *OPTIONAL[1])]
     done = program.needed(first)
-    body = _statements(writer, done) + [line for name in first for line in writer._entries(name, program.outputs[name])]
+    body = [*_equations(program, first), *_statements(writer, done)]
+    body += [line for name in first for line in writer._entries(name, program.outputs[name])]
     body += _optional(program, writer, done)
     return _whole(head, [*_locals(program, data), *body])
 
 
 def _whole(head: list[str], body: list[str]) -> list[str]:
-    if len(body) > MAX_STATEMENTS:
+    if sum(not line.lstrip().startswith("/*") for line in body) > MAX_STATEMENTS:
         raise Unwritten(f"a function would have more than {MAX_STATEMENTS} statements")
     return [*head, "{", *indented([*body, "return ZD_DONE;"]), "}"]
 
@@ -164,7 +176,7 @@ def _optional(program: _Program, writer: LaneWriter, done: list[int]) -> list[st
             more = _statements(writer, _without(program.needed(names), done))
             entries = [line if len(names) == 1 else f"if ({name}) {line}"
                        for name in names for line in writer._entries(name, program.outputs[name])]
-            body += [f"if ({' || '.join(names)}) {{", *indented([*more, *entries]), "}"]
+            body += [*_equations(program, names), f"if ({' || '.join(names)}) {{", *indented([*more, *entries]), "}"]
     return body
 
 
@@ -172,18 +184,19 @@ def _finishing(program: _Program, head: list[str], offset: int, data: str) -> li
     """Statements of `finish`: Phi first; if it is small, velocities are corrected and accelerations computed with them."""
     writer, outputs, lowering = _writer(program, offset), program.outputs, program.lowering
     done = program.needed(["Phi"])
-    body = _statements(writer, done) + writer._entries("Phi", outputs["Phi"])
+    body = _equations(program, ["Phi"]) + _statements(writer, done) + writer._entries("Phi", outputs["Phi"])
     if outputs["Phi"]:
         aside = _apart(program, writer, done, ["dp"])
         large = " || ".join(f"!(fabs(Phi[{k}]) <= allowed[{k}])" for k in range(len(outputs["Phi"])))
-        body += [f"if ({large}) {{", *indented([*aside, "return ZD_NO_CONVERGENCE;"]), "}"]
+        body += [f"if ({large}) {{", *indented([*_equations(program, ["dp"]), *aside, "return ZD_NO_CONVERGENCE;"]), "}"]
     more = _further(program, writer, done, ["dv"])
     velocities = [writer.value(number) for number in outputs["dv"]]
     is_kept = [lowering.operations[number].code == "number" for number in outputs["dv"]]    # which is then zero
-    body += [*more, *(f"const zd_real v{i} = before{i}{'' if kept else f' - {value}'};"
+    body += [*_equations(program, ["dv"]), *more, *(f"const zd_real v{i} = before{i}{'' if kept else f' - {value}'};"
                       for i, (value, kept) in enumerate(zip(velocities, is_kept, strict=True)))]
     rest = [name for name in ("pdot", "vdot") if outputs.get(name)]
-    body += _further(program, writer, done, rest) + [f"v[{i}] = v{i};" for i in range(len(velocities))]
+    body += [*_equations(program, rest), *_further(program, writer, done, rest)]
+    body += [f"v[{i}] = v{i};" for i in range(len(velocities))]
     body += [line for name in rest for line in writer._entries(name, outputs[name])] + _optional(program, writer, done)
     return _whole(head, [*_locals(program, data), *body])
 

@@ -1,9 +1,13 @@
-/* The equations of motion at a point: solutions with the leading matrix, accelerations, and the rate of the integrated state that follows. */
+/* The motion at a point: solutions with the leading matrix, accelerations, the rate of the integrated state that follows, corrections after
+ * a step, and the energy balance (28).
+ */
+#include <math.h>
 #include <string.h>
 
 #include "../constraints/limits.h"
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
+#include "../point/point.h"
 #include "motion.h"
 
 /* ---- leading matrix ---- */
@@ -146,3 +150,81 @@ int zd_motion_finish(zd_motion *motion, double *y, int within)
 
 const zd_equations zd_equations_by_matrices = {
     accelerate, zd_motion_rate, zd_motion_unpack, zd_motion_pack, zd_motion_finish, zd_motion_expand, zd_motion_reduce, ~0, 1};
+
+/* ---- corrections after a step ---- */
+
+enum which { ALL, PROJECTION, REST };
+
+ZD_INLINE int correct(zd_motion *motion, int64_t step, int forced, const enum which which)
+{
+    for (int i = 0; i < motion->corrections; i++) {
+        const zd_active *active = &motion->active[i];
+        if (!active->row->after_step || !(forced || zd_is_one_of(active->every, step))) continue;
+        if (which != ALL && (active->row->target != NULL) != (which == PROJECTION)) continue;
+        int status = active->row->after_step(active->self, motion);
+        if (status) return status;
+    }
+    return ZD_DONE;
+}
+
+int zd_motion_correct(zd_motion *motion, int64_t step, int forced)
+{
+    return correct(motion, step, forced, ALL);
+}
+
+int zd_motion_project(zd_motion *motion, int64_t step, int forced)
+{
+    return correct(motion, step, forced, PROJECTION);
+}
+
+int zd_motion_correct_rest(zd_motion *motion, int64_t step, int forced)
+{
+    return correct(motion, step, forced, REST);
+}
+
+int zd_motion_is_corrected(const zd_motion *motion, int64_t step)
+{
+    for (int i = 0; i < motion->corrections; i++)
+        if (motion->active[i].row->after_step && !zd_is_one_of(motion->active[i].every, step)) return 0;
+    return 1;
+}
+
+/* ---- energy balance ---- */
+
+int zd_has_energy(const zd_system *system)
+{
+    return (system->provides & ZD_POTENTIAL) != 0;
+}
+
+int zd_has_input(const zd_system *system)
+{
+    return zd_has_energy(system) && (system->provides & (ZD_POWER | ZD_PHI_T));
+}
+
+/* Power put in besides V: by forces, and by moving constraints, whose force -C^T lambda does work because C v = -Phi_t. */
+double zd_motion_power(const zd_motion *motion)
+{
+    const zd_point *point = motion->point;
+    double sum = point->terms.power ? *point->terms.power : 0;
+    if (point->terms.Phi_t) zd_rank_find_multipliers(point);
+    if (point->terms.Phi_t)
+        for (int k = 0; k < zd_constraints(point->system); k++) sum += point->lambda[k] * point->terms.Phi_t[k];
+    return sum;
+}
+
+int zd_motion_energy_violation(zd_motion *motion, double *violation, double *kinetic)
+{
+    const zd_point *point = motion->point;
+    int status = zd_point_need(motion->point, ZD_M | ZD_POTENTIAL);
+    if (status) return status;
+    *kinetic = zd_point_kinetic(point);
+    *violation = *kinetic + zd_point_potential(point) - motion->balance.initial - zd_motion_input(motion);     /* (28) */
+    return isfinite(*violation) ? ZD_DONE : ZD_NOT_FINITE;
+}
+
+int zd_motion_start_energy(zd_motion *motion)
+{
+    double kinetic;
+    if (!zd_has_energy(&motion->system)) return ZD_DONE;
+    return zd_motion_energy_violation(motion, &motion->balance.initial, &kinetic);     /* E0 of (28), which is 0 here */
+}
