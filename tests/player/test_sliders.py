@@ -23,7 +23,7 @@ def words(mechanism):
 def test_a_delta_robot_is_changed_by_all_its_sliders_together():
     robot = zd.models.delta_robot()
     sliders = [each for each in live_view(robot)._scene["sliders"] if each["kind"] == "parameter"]
-    assert "arm 0.length" in [each["name"] for each in sliders]
+    assert {"arm 0.length", "arm 1.length"} & {each["name"] for each in sliders}   # the tables of one may change their order
     core = BlockCore(zd.block(robot, outputs=[], parameters={each["name"]: (each["least"], each["most"]) for each in sliders}))
     changed = {each["name"]: 0.4 * each["least"] + 0.6 * each["most"] for each in sliders}
     assert all(core.set_parameter(i, value) for i, value in enumerate(changed.values()))

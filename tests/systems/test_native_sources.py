@@ -145,7 +145,7 @@ def test_a_cfunc_of_another_signature(module):
 
 def test_the_example_of_the_docstring():
     pytest.importorskip("numba")
-    code = inspect.getdoc(zd.native).partition("that a spring pulls::\n")[2].partition("\nMatrices are")[0]
+    code = inspect.getdoc(zd.native).partition("with numba::\n")[2].partition("\nMatrices are")[0]
     scope = {"zd": zd}
     # numba wants the source of what it compiles only to cache it
     exec(compile(textwrap.dedent(code), "example", "exec"), scope)
