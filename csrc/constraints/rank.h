@@ -30,10 +30,10 @@ struct zd_rank {
     double *start_square;   /* (m,): squared lengths of the rows at the start */
     double *terms_square;   /* (m,): squared magnitudes of the terms summed in each row; where not known, start_square */
     double *rhs;            /* (m,): right-hand side, for formulations that compute the velocity; else NULL */
-    zd_rank_monitor *monitor;          /* monitor of all constraints */
+    zd_rank_monitor *monitor;          /* monitor of all constraints; NULL if is_large */
     zd_store *store;        /* memory for symbolic structures, made when they are first needed */
-    zd_selection *selection;    /* NULL if is_large, as the other two then are */
-    zd_rank_monitor *kept;          /* monitor of the selection kept from step to step, and of its change */
+    zd_selection *selection;    /* NULL if is_large */
+    zd_rank_monitor *kept;          /* monitor of the selection kept from step to step, and of its change; NULL if is_large */
 };
 
 /* Selection of independent constraints where some are linearly dependent. */

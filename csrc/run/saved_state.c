@@ -7,7 +7,8 @@
  *
  * Nearly all words that differ are numbers. Functions and tables of the core follow from indices, so that a core of another compiler or
  * with other flags continues the run. Addresses of arrays, as those that were exchanged, are written relative to the run's memory. In memory
- * of numbers none is looked for; elsewhere the bits of an address are those of no double above 1e-307, and of no int or count below 2^32.
+ * of numbers none is looked for; elsewhere the bits of an address are those of no double above 1e-307 and of no count below 2^32, and those
+ * of two neighbouring ints only if both together agree with an address in the run.
  */
 #include <stddef.h>
 #include <stdint.h>
