@@ -146,8 +146,8 @@ class Equations:
         return np.array([self.axis_of(j) @ ((omega[b] if b >= 0 else 0) - (omega[a] if a >= 0 else 0))
                          for j, (a, b) in ((j, self.JOINTS[j]) for j in self.pins)])
 
-    def solve(self, R, omega, c):
-        """Accelerations (18,), and det(I - G du/dr) there and without friction"""
+    def solve(self, R, omega, c, u0=0):
+        """Accelerations (18,), det(I - G du/dr) there and least between there and the torques u0, and the torques"""
         M, f, C, bias, at, torques = self.matrices(R, omega)
         K = np.block([[M, C.T], [C, np.zeros((len(C), len(C)))]])
         zero = np.linalg.solve(K, np.concatenate([f, -bias]))
@@ -155,17 +155,21 @@ class Equations:
         F0 = [-zero[18:][list(at[j])] for j in self.pins]
         G = [-each[18:][list(at[j])] for j in self.pins]
         sign = c * np.tanh(self.speeds(omega) / self.loop.width)
-        u, determinants = np.zeros(len(c)), []
-        for _ in range(50):
+
+        def residual(u):
             forces = [F0[i] + G[i] @ u for i in range(len(c))]
             size = np.array([np.sqrt(F @ F + SMOOTHING**2) for F in forces])
-            J = np.eye(len(c)) + np.array([sign[i] / size[i] * (forces[i] @ G[i]) for i in range(len(c))])
-            determinants.append(np.linalg.det(J))
-            change = np.linalg.solve(J, u + sign * size)
+            return u + sign * size, np.eye(len(c)) + np.array([sign[i] / size[i] * (forces[i] @ G[i]) for i in range(len(c))])
+
+        u = start = u0 + np.zeros(len(c))
+        for _ in range(50):
+            left, J = residual(u)
+            change = np.linalg.solve(J, left)
             u = u - change
             if np.abs(change).max() < 1e-13 * (1 + np.abs(u).max()):
                 break
-        return zero[:18] + each[:18] @ u, determinants[-1], determinants[0]
+        determinants = [np.linalg.det(residual(start + part * (u - start))[1]) for part in np.linspace(0, 1, 9)]
+        return zero[:18] + each[:18] @ u, determinants[-1], min(determinants), u
 
     def start(self):
         """Twists (18,) at the drawn start, by the crank's speed; the coupler does not turn about its own line."""
@@ -177,14 +181,15 @@ class Equations:
         return np.linalg.lstsq(np.vstack([C, *wanted]), values, rcond=None)[0]
 
 
-def critical(loop, share=1.0):
-    """The loop with friction at a share of that with which the determinant is first negative at the start; None: not found"""
+def critical(loop):
+    """The loop with the friction with which its motion at the start, followed from less friction, ends; None: not found"""
     equations = Equations(loop)
     omega = equations.start().reshape(3, 6)[:, 3:]
-    for factor in np.geomspace(0.05, 1e3, 80):
-        M = equations.solve([np.eye(3)] * 3, omega, factor * loop.c)
-        if min(M[1:]) <= 0:
-            return loop._replace(c=loop.c * factor * share)
+    u = 0
+    for factor in np.geomspace(0.05, 1e3, 400):
+        *_, least, u = equations.solve([np.eye(3)] * 3, omega, factor * loop.c, u)
+        if least <= 0:
+            return loop._replace(c=loop.c * factor)
     return None
 
 
@@ -196,8 +201,8 @@ def reference(loop, end):
 
     def rate(t, y):
         R, twists = y[9:36].reshape(3, 3, 3), y[36:].reshape(3, 6)
-        vdot, *determinants = equations.solve(R, twists[:, 3:], loop.c)
-        least[0] = min(least[0], *determinants)
+        vdot, _, smallest, _ = equations.solve(R, twists[:, 3:], loop.c)
+        least[0] = min(least[0], smallest)
         spun = [cross(twists[b, 3:]) @ R[b] for b in range(3)]
         return np.concatenate([twists[:, :3].ravel(), np.ravel(spun), vdot])
 
