@@ -207,8 +207,7 @@ int zd_rank_monitor_is_doubtful(zd_rank_monitor *self, zd_point *point)
     if (bound < NEAR * NEAR) return 0;
     const double change = fmin(sqrt(bound), find_change(self, point));
     if (change < NEAR) return 0;
-    self->close.C = point->terms.C;
-    const zd_shares shares = point->layout ? factor_products(self, point) : zd_orthogonalize(&self->close, DOUBTFUL);
+    const zd_shares shares = point->layout ? factor_products(self, point) : zd_orthogonalize(&self->close, point->terms.C, DOUBTFUL);
     rank->was_turned |= !(change < FAR);
     self->is_known = 0;
     int is_short = 0, is_ill = shares.rows < self->close.m || !(shares.least > ILL);
@@ -227,9 +226,8 @@ void zd_rank_monitor_keep_selection(zd_rank_monitor *self, zd_point *point)
     const zd_selection *selection = point->rank->selection;
     self->is_known = 0;
     self->close.m = selection->independent;
-    self->close.C = point->C;
     memcpy(self->row, selection->row, (size_t)self->m * sizeof *self->row);
-    if (zd_orthogonalize(&self->close, DOUBTFUL).rows == self->close.m) store(self, point);
+    if (zd_orthogonalize(&self->close, point->C, DOUBTFUL).rows == self->close.m) store(self, point);
 }
 
 int zd_rank_monitor_is_unchanged(const zd_rank_monitor *self, const zd_point *point)

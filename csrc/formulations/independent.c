@@ -140,9 +140,10 @@ static int entries(const void *memory, zd_entries *entries)
 {
     const independent *self = memory;
     const zd_embedding *embedding = &self->embedding;
-    if (!zd_minimal_entries(&self->minimal, entries)) return 0;
+    const int has_u = zd_minimal_entries(&self->minimal, entries);
     const double steepest = zd_embedding_steepest(embedding);
     entries->q = embedding->index;
+    if (!has_u) return 0;
     if (steepest < entries->steepest) entries->steepest = steepest;
     return embedding->k == embedding->nq || have_same(embedding->k, entries->q, entries->u);
 }

@@ -199,7 +199,6 @@ int zd_minimal_entries(const void *memory, zd_entries *entries)
 {
     const zd_minimal *self = memory;
     const zd_complement *complement = &self->complement;
-    if (self->many || complement->r != self->size) return 0;
     *entries = (zd_entries){NULL, complement->order + complement->m, zd_complement_steepest(complement)};
-    return entries->steepest > 0;
+    return !self->many && complement->r == self->size && entries->steepest > 0;
 }

@@ -108,8 +108,8 @@ static zd_shares orthogonalize_all(schur *self, zd_point *point, int rows, const
 {
     self->m = rows;
     self->C = C;
-    const zd_orthogonal it = {self->n, rows, C, self->L, self->Q, self->G, self->b, self->rows, self->correction};
-    zd_shares shares = zd_orthogonalize(&it, MIN_REMAINDER * MIN_REMAINDER);
+    const zd_orthogonal it = {self->n, rows, self->L, self->Q, self->G, self->b, self->rows, self->correction};
+    zd_shares shares = zd_orthogonalize(&it, C, MIN_REMAINDER * MIN_REMAINDER);
     point->rank->was_turned |= !(shares.turned < TURNED);
     point->failed_index = shares.rows;
     return shares;

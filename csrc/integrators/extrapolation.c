@@ -23,10 +23,9 @@ typedef struct extrapolation {
     double *sum;            /* (size,): of the weighted z_n - y0 */
 } extrapolation;
 
-static void *create(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
+static void *create(zd_arena *arena, const void *table, zd_motion *motion, double *y, int size, const void *given)
 {
-    (void)given;
-    (void)table, (void)system;
+    (void)table, (void)motion, (void)y, (void)given;
     size_t n = (size_t)size;
     extrapolation self = {
         .size = size,

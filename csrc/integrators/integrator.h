@@ -9,8 +9,8 @@ typedef struct zd_integrator {
     int takes_series;       /* true if it integrates the Taylor series of the system, without changes of the constraints: zd_series */
     int takes_jacobian;     /* true if it uses rate->jacobian */
     int (*suits)(const zd_system *system);      /* NULL: it suits any system */
-    /* given: its parameters, in the order of its card */
-    void *(*create)(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given);
+    /* y (size,): the state of every step; given: its parameters, in the order of its card */
+    void *(*create)(zd_arena *arena, const void *table, zd_motion *motion, double *y, int size, const void *given);
     int (*step)(void *self, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics);
     /* Replaces step() in methods that solve the constraints within the step. */
     int (*step_of_motion)(void *self, zd_motion *motion, double t, double h, double *y);

@@ -49,9 +49,9 @@ typedef struct rattle {
     double *product;        /* (n,) */
     double *rhs;            /* (m,) */
     double *rate0, *rate1;  /* (size,): rates at both ends, for entries after the formulation's */
-    zd_motion *motion;      /* current step, also the next four */
+    zd_motion *motion;
     double *state;          /* (size,) */
-    double t0, t1, h;
+    double t0, t1, h;       /* start, end and size of the step */
     double before;          /* the last iteration's change */
 } rattle;
 
@@ -60,16 +60,16 @@ static int suits(const zd_system *system)
     return !system->mn && !(system->provides & ZD_A);
 }
 
-static void *create(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
+static void *create(zd_arena *arena, const void *table, zd_motion *motion, double *y, int size, const void *given)
 {
-    (void)given;
-    (void)table;
+    (void)table, (void)given;
+    const zd_system *system = &motion->system;
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     rattle self = {
         .n = (int)n,
         .m = (int)m,
         .varies = (system->provides & ZD_BIAS) != 0,
-        .probe = zd_point_create(arena, system, NULL),
+        .probe = zd_point_create(arena, system, &motion->statistics),
         .p0 = zd_arena_doubles(arena, n),
         .p = zd_arena_doubles(arena, n),
         .moved = zd_arena_doubles(arena, n),
@@ -89,6 +89,8 @@ static void *create(zd_arena *arena, const void *table, const zd_system *system,
         .rhs = zd_arena_doubles(arena, m),
         .rate0 = zd_arena_doubles(arena, (size_t)size),
         .rate1 = zd_arena_doubles(arena, (size_t)size),
+        .motion = motion,
+        .state = y,
     };
     return zd_arena_copy(arena, &self, sizeof self);
 }
@@ -255,12 +257,9 @@ static int step_of_motion(void *memory, zd_motion *motion, double t, double h, d
 {
     rattle *self = memory;
     int status, own = motion->formulation_size, along = motion->rate.size - own;
-    self->motion = motion;
-    self->state = y;
     self->h = h;
     self->t0 = t;
     self->t1 = t + h;
-    self->probe->statistics = &motion->statistics;
     self->probe->known = 0;     /* the step may be a repeated one */
     motion->state = y;
     status = motion->formulation->unpack(motion->solver, motion->point, t, y);

@@ -6,10 +6,9 @@
  */
 #include "runge_kutta.h"
 
-void *zd_runge_kutta_create(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
+void *zd_runge_kutta_create(zd_arena *arena, const void *table, zd_motion *motion, double *y, int size, const void *given)
 {
-    (void)given;
-    (void)system;
+    (void)motion, (void)y, (void)given;
     const zd_tableau *tableau = table;
     const size_t estimates = tableau->e != NULL;
     zd_runge_kutta self = {

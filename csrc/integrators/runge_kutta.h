@@ -148,7 +148,7 @@ ZD_INLINE double zd_squares(const int terms, const double *weight, const zd_rung
     return squares;
 }
 
-void *zd_runge_kutta_create(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given);
+void *zd_runge_kutta_create(zd_arena *arena, const void *table, zd_motion *motion, double *y, int size, const void *given);
 /* |lambda h| at the end of a step whose last stage is there, too; 0: not known */
 double zd_runge_kutta_lambda_h(const zd_tableau *T, const zd_runge_kutta *self, double h, const double *y, const double *scale);
 

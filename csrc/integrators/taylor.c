@@ -52,9 +52,10 @@ static int suits(const zd_system *system)
     return system->series != NULL;
 }
 
-static void *create(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
+static void *create(zd_arena *arena, const void *table, zd_motion *motion, double *y, int size, const void *given)
 {
-    (void)table;
+    (void)table, (void)y;
+    const zd_system *system = &motion->system;
     const int order = (int)fmax(((const given_taylor *)given)->order, MIN_ORDER);
     const size_t orders = (size_t)order + 1, whole = (size_t)(system->nq + system->nv);
     taylor self = {

@@ -39,8 +39,8 @@ typedef struct trapezoidal {
     int *order;         /* (size,) */
     int factored;
     double factored_h;
-    const zd_rate *rate;    /* current step, also the next three */
-    double t1, h;
+    const zd_rate *rate;
+    double t1, h;       /* end and size of the step */
     double defect, before;  /* residual relative to its terms, now and in the previous iteration */
     int stalls;             /* number of successive iterations that have stalled */
 } trapezoidal;
@@ -50,10 +50,9 @@ static int suits(const zd_system *system)
     return !zd_is_too_large(system);
 }
 
-static void *create(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
+static void *create(zd_arena *arena, const void *table, zd_motion *motion, double *y, int size, const void *given)
 {
-    (void)given;
-    (void)table, (void)system;
+    (void)table, (void)y, (void)given;
     size_t n = (size_t)size;
     trapezoidal self = {
         .size = size,
@@ -66,6 +65,7 @@ static void *create(zd_arena *arena, const void *table, const zd_system *system,
         .differences = zd_differences_create(arena, size),
         .J = zd_arena_doubles(arena, n * n),
         .order = zd_arena_ints(arena, n),
+        .rate = &motion->rate,
     };
     return zd_arena_copy(arena, &self, sizeof self);
 }
@@ -193,7 +193,6 @@ static int step(void *memory, const zd_rate *rate, double t, double h, double *y
     trapezoidal *self = memory;
     resize(self, rate->size);
     size_t bytes = (size_t)self->size * sizeof *y;
-    self->rate = rate;
     self->t1 = t + h;
     self->h = h;
     memcpy(self->y0, y, bytes);

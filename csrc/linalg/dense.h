@@ -45,7 +45,6 @@ int zd_symmetric_dependent(int n, double *LD, const int *order, int step, double
 
 typedef struct zd_orthogonal {
     int n, m;
-    const double *C;        /* (m, n): the rows */
     const double *L;        /* (n, n): factors by zd_cholesky() of the matrix whose inverse is the metric; NULL: Euclidean metric */
     double *Q;              /* (m, n): orthogonal rows, C = G Q in the Euclidean metric, otherwise C L^-T = G Q; input: the previous ones */
     double *G;              /* (m, m): unit lower triangular; its diagonal stores the inverse squared norms of the rows of Q */
@@ -61,7 +60,7 @@ typedef struct zd_shares {
 } zd_shares;
 
 /* `enough`: squared relative residual norm that each row must have. */
-zd_shares zd_orthogonalize(const zd_orthogonal *self, double enough);
+zd_shares zd_orthogonalize(const zd_orthogonal *self, const double *C, double enough);
 
 /* Minimum-norm solutions of linear equations whose rows may be redundant, by a complete orthogonal decomposition:
  * A = P [L; B] Q^T with an orthogonal Q, a lower triangular L with as many rows as are independent, and a permutation P that takes the

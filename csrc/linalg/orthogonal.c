@@ -82,14 +82,14 @@ static int finish(const zd_orthogonal *self, int k, double *row, double enough, 
     return 1;
 }
 
-zd_shares zd_orthogonalize(const zd_orthogonal *self, double enough)
+zd_shares zd_orthogonalize(const zd_orthogonal *self, const double *C, double enough)
 {
     const int n = self->n, m = self->m;
     zd_shares shares = {m, 1, 0};
     for (int k = 0; k < m; k += TOGETHER) {
         const int count = k + TOGETHER <= m ? TOGETHER : m - k;
-        if (self->L) zd_forward_rows(n, count, self->L, self->C + k * n, self->rows);
-        else zd_copy(count * n, self->C + k * n, self->rows);
+        if (self->L) zd_forward_rows(n, count, self->L, C + k * n, self->rows);
+        else zd_copy(count * n, C + k * n, self->rows);
         for (int r = 0; r < count; r++) self->square[k + r] = square_of(self, self->rows + r * n);
         for (int j = 0; j < k; j++) take_out(self, j, k, count, self->rows);
         for (int r = 0; r < count; r++) {

@@ -45,13 +45,6 @@ ZD_INLINE void zd_copy(const int n, const double *from, double *to)
     for (int i = 0; i < n; i++) to[i] = from[i];
 }
 
-ZD_INLINE void zd_exchange(double **a, double **b)
-{
-    double *kept = *a;
-    *a = *b;
-    *b = kept;
-}
-
 /* Copy of any size, large ones by memcpy() */
 ZD_INLINE void zd_copy_all(int n, const double *from, double *to)
 {

@@ -43,6 +43,7 @@ void zd_motion_create_jacobian(zd_motion *motion, zd_arena *arena)
         .rates = zd_arena_doubles(arena, width + 1),
         .picked = zd_arena_doubles(arena, larger(size, width)),
     };
+    if (motion->point) zd_residual_state_begin(&motion->chain.residuals, 0, motion->point, motion->point->vdot, motion->chain.lambda);
     motion->rate.jacobian = jacobian;
 }
 
@@ -141,7 +142,7 @@ static int differentiate_Psi(zd_motion *motion, int positions, const double *inc
     zd_point *point = motion->point;
     const int m = zd_constraints(&motion->system), width = motion->system.nq + motion->system.nv;
     int status = ZD_DONE;
-    zd_residual_state_begin(&chain->residuals, ZD_RESIDUAL_PSI, point, point->vdot, point->lambda);
+    zd_residual_state_begin(&chain->residuals, ZD_RESIDUAL_PSI, point, point->vdot, chain->lambda);
     for (int i = 0; i < positions && !status; i++) {
         const zd_direction along = {.p = chain->T + i * width};
         status = zd_residual_derivatives(&chain->residuals, &along, increment[i], ZD_FOR_ITERATIONS, chain->Psi_along + i * m);

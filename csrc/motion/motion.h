@@ -239,7 +239,7 @@ static inline int zd_motion_factor_for(zd_motion *motion, const double *force, c
 {
     motion->point->awaited = (zd_right_side){force, rhs, x};
     int status = zd_motion_factor(motion);
-    motion->point->awaited.x = NULL;
+    motion->point->awaited = (zd_right_side){NULL, NULL, NULL};
     return status;
 }
 /* Selects the independent constraints at the point, by factoring where the formulation does so. */

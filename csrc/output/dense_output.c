@@ -13,7 +13,7 @@
 static void *take_chosen(zd_arena *arena, const void *of)
 {
     const zd_motion *motion = of;
-    return zd_arena_bytes(arena, motion->memory_of_chosen.bytes);
+    return zd_arena_copy(arena, motion->memory_of_chosen.at, motion->memory_of_chosen.bytes);
 }
 
 int zd_dense_output_create(zd_stepper *stepper)

@@ -235,8 +235,6 @@ int zd_watch_after(zd_watch *self, int corrected, double *end)
     if (!status && occurs) status = find_all(self, end);
     if (!status && output->is_within && !self->ended) status = zd_output_return_to_end(output);
     output->is_within = 0;
-    double *now = self->now;
-    self->now = self->before;
-    self->before = now;
+    zd_copy_all(self->events->count, self->now, self->before);
     return status;
 }

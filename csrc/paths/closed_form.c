@@ -63,8 +63,8 @@ static int rate(void *context, double t, const double *y, double *ydot)
     const zd_point *point = motion->point;
     const int nq = point->system->nq, nv = point->system->nv;
     const size_t of_p = (size_t)nq * sizeof *y, of_v = (size_t)nv * sizeof *y;
-    motion->state = y;
     int is_known = (point->known & ZD_ACCELERATED) && t == point->t && !memcmp(y, point->p, of_p) && !memcmp(y + nq, point->v, of_v);
+    if (motion->is_stabilized) motion->state = y;
     if (is_known || motion->is_stabilized) return rate_of_point(motion, t, y, ydot);
     motion->statistics.evaluations++;
     if (!point->terms.A) zd_copy_all(nv, y + nq, ydot);

@@ -34,5 +34,5 @@ void zd_closed_form_create(zd_motion *motion, zd_arena *arena, enum zd_unit unit
         .dv = zd_arena_doubles(arena, (size_t)system->nv),
         .allowed = zd_arena_doubles(arena, (size_t)system->mh),
     };
-    if (embeds) zd_embed_create(&motion->path, arena, system);
+    if (embeds) zd_embed_create(motion, arena);
 }

@@ -19,10 +19,13 @@ enum { MAX_ITERATIONS = 8 };
 static const double CONSTRAINT_ROUNDING = 16 * 0x1p-52; /* residual of Phi after convergence, relative to the sizes of Phi and p */
 static const double MIN_TERMS = 16; /* number of terms of a constraint up to which CONSTRAINT_ROUNDING suffices */
 
-void zd_embed_create(zd_path *path, zd_arena *arena, const zd_system *system)
+void zd_embed_create(zd_motion *motion, zd_arena *arena)
 {
+    const zd_system *system = &motion->system;
+    zd_path *path = &motion->path;
     const size_t nv = (size_t)system->nv, m = (size_t)zd_constraints(system), mh = (size_t)system->mh;
     path->embeds = 1;
+    if (motion->solver) motion->formulation->entries(motion->solver, &path->state);
     path->p = zd_arena_doubles(arena, (size_t)system->nq);
     path->v = zd_arena_doubles(arena, nv);
     path->vdot = zd_arena_doubles(arena, nv);

@@ -49,9 +49,11 @@ static int rate(void *context, double t, const double *y, double *ydot)
 {
     zd_motion *motion = context;
     zd_path *path = &motion->path;
-    motion->state = y;
     zd_embed_read(motion, t, y);
-    if (motion->is_stabilized) return rate_of_point(motion, t, ydot);
+    if (motion->is_stabilized) {
+        motion->state = y;
+        return rate_of_point(motion, t, ydot);
+    }
     if (is_known(motion, t)) {
         write_rates(motion, motion->point->v, path->pdot, motion->point->vdot, path->power, ydot);
         return ZD_DONE;

@@ -165,7 +165,7 @@ ZD_INLINE int zd_iterate_in_closed_form(const zd_iterate *it, int (*call)(const 
 /* Independent velocities: embed.c */
 
 /* Allocates the fields of the path that only these formulations need. */
-void zd_embed_create(zd_path *path, zd_arena *arena, const zd_system *system);
+void zd_embed_create(zd_motion *motion, zd_arena *arena);
 /* Index of the elimination order whose dependent velocities are those not in the state, which it saves in the path; -1: there is none. */
 int zd_embed_find(zd_motion *motion);
 /* Sets the tolerance of Phi for a step that begins at the point. */

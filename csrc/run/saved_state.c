@@ -34,7 +34,8 @@ enum kind {
 
 /* Words of zd_run that follow from the elimination order and from DEPENDENT, as zd_path_bind() sets them. */
 #define OF(member) offsetof(zd_run, motion.member)
-static const size_t FOLLOWING[] = {OF(formulation), OF(equations), OF(rate.evaluate), OF(rate.closed_form), OF(rate.expand), OF(rate.reduce)};
+static const size_t FOLLOWING[] = {OF(formulation), OF(equations), OF(rate.evaluate), OF(rate.closed_form), OF(rate.vdot), OF(rate.expand),
+                                   OF(rate.reduce)};
 
 static int follows(size_t i)
 {
@@ -42,7 +43,6 @@ static int follows(size_t i)
     for (size_t k = 0; k < sizeof FOLLOWING / sizeof *FOLLOWING; k++) does |= i == FOLLOWING[k] / WORD;
     return does;
 }
-
 
 /* ---- memory of a run ---- */
 

@@ -20,8 +20,8 @@ zd_snapshot zd_snapshot_create(zd_arena *arena, const zd_stepper *stepper)
             .lambda = zd_arena_doubles(arena, (size_t)zd_constraints(&motion->system)),
             .pivots = zd_arena_doubles(arena, nv),
         },
-        .of_integrator = zd_arena_bytes(arena, stepper->memory_of_integrator.bytes),
-        .of_chosen = zd_arena_bytes(arena, motion->memory_of_chosen.bytes),
+        .of_integrator = zd_arena_copy(arena, stepper->memory_of_integrator.at, stepper->memory_of_integrator.bytes),
+        .of_chosen = zd_arena_copy(arena, motion->memory_of_chosen.at, motion->memory_of_chosen.bytes),
         .y = zd_arena_doubles(arena, (size_t)stepper->capacity),
     };
 }

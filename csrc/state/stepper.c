@@ -15,7 +15,7 @@ void zd_stepper_create(zd_stepper *self, zd_arena *arena, zd_motion *motion, con
     size_t size = (size_t)(motion->rate.size + more);
     double *y = zd_arena_doubles(arena, size), *last = zd_arena_doubles(arena, size);
     const size_t used = arena->used;
-    void *memory = integrator->create(arena, integrator->table, system, (int)size, given);
+    void *memory = integrator->create(arena, integrator->table, motion, y, (int)size, given);
     const zd_span memory_of_integrator = zd_span_since(arena, used);
     if (dependent.formulation) dependent.solver = dependent.formulation->create(arena, independent, NULL);
     const int is_complete = !motion->formulation->update;     /* then the state begins with p and v */

@@ -39,9 +39,9 @@ static const zd_parameter parameters[] = {
     {"theta", "", "Position of the second stage, as a part of the step.", 1, ZD_POSITIVE, (const double[]){2.0 / 3}},
 };
 
-static void *create(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
+static void *create(zd_arena *arena, const void *table, zd_motion *motion, double *y, int size, const void *given)
 {
-    (void)table, (void)system;
+    (void)table, (void)motion, (void)y;
     size_t n = (size_t)size;
     staged self = {*(const double *)given, size, zd_arena_doubles(arena, n), zd_arena_doubles(arena, n),
                    zd_arena_doubles(arena, n)};

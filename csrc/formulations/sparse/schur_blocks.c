@@ -102,7 +102,7 @@ static zd_pivots factor_chosen(zd_schur_blocks *self)
     const zd_selection *chosen = self->chosen;
     memset(self->without, 0, (size_t)self->weighted->blocks->rows);
     for (int d = chosen->independent; d < self->m; d++) self->without[self->weighted->row_groups.place[chosen->row[d]]] = 1;
-    self->begun.x = NULL;
+    self->begun = (zd_right_side){NULL, NULL, NULL};
     return zd_weighted_factor_without(self->weighted, self->C, self->W, self->without);
 }
 
@@ -261,7 +261,7 @@ static void solve_all(zd_schur_blocks *self, const double *force, const double *
     const zd_right_side *begun = &self->begun;
     const int has_begun = begun->x == x && begun->rhs == rhs && begun->force == force;
     if (!has_begun) zd_blocks_forward(self->weighted->blocks, begin(self, &(zd_right_side){force, rhs, x}));
-    self->begun.x = NULL;
+    self->begun = (zd_right_side){NULL, NULL, NULL};
     finish(self, force, x);
     if (lambda) zd_weighted_scatter(self->weighted, self->weighted->blocks->x, lambda);
     if (self->is_compared) refine(self, rhs, x, lambda);

@@ -122,7 +122,7 @@ typedef struct zd_radau_newton {
     int size;               /* entries of the state */
     const zd_rate *rate;
     const double *y0;       /* (size,): state at the start of the step */
-    double t0, h;           /* s: time there, and size of the step */
+    double t0, h;           /* s: time there, NaN before the first, and size of the step */
     double *z, *w;          /* (stages, size): stages minus y0; T^-1 z */
     double *f;              /* (stages, size): rates at the stages */
     double *change;         /* (stages, size): change of w by an iteration */
@@ -139,6 +139,6 @@ typedef struct zd_radau_newton {
     int iterations;
 } zd_radau_newton;
 
-zd_radau_newton zd_radau_newton_create(zd_arena *arena, int size);
+zd_radau_newton zd_radau_newton_create(zd_arena *arena, const zd_rate *rate, const double *y, int size);
 /* Solves for z, from its estimate, with matrices factored for this step. ZD_NO_CONVERGENCE, ZD_NOT_FINITE, or the status of the rate */
 int zd_radau_newton_iterate(zd_radau_newton *self, zd_statistics *statistics);

@@ -19,7 +19,7 @@ static const double NEVER = 1e-9;               /* change relative to the state:
 static const double ROUNDING_RATIO = 16;        /* ratio of the change to that by a disturbance of the last bit: rounding error below */
 static const double STALLED = 0.5;              /* ratio of two successive changes above which the iteration has stalled */
 
-zd_radau_newton zd_radau_newton_create(zd_arena *arena, int size)
+zd_radau_newton zd_radau_newton_create(zd_arena *arena, const zd_rate *rate, const double *y, int size)
 {
     const size_t n = (size_t)size;
     zd_radau_newton self = {
@@ -34,6 +34,9 @@ zd_radau_newton zd_radau_newton_create(zd_arena *arena, int size)
         .matrices = zd_radau_matrices_create(arena, size),
         .stages = zd_radau_stages_create(arena, size),
         .contraction = 1,
+        .rate = rate,
+        .y0 = y,
+        .t0 = NAN,
     };
     self.seen = self.matrices.differences.scale;
     return self;
@@ -47,15 +50,15 @@ static void see_sizes(zd_radau_newton *self)
     for (int k = 0; k < STAGES * n; k++) seen[k % n] = fmax(seen[k % n], fabs(z[k]) + fabs(change[k]));
 }
 
-/* Norm of the change, in units of its tolerance */
-static double measure(const zd_radau_newton *self)
+/* Norm of a change, in units of its tolerance */
+static double measure(const zd_radau_newton *self, const double *change)
 {
     const int n = self->size;
     const double *scale = self->has_scale ? self->scale : self->seen;
     double sum = 0, largest = 0;
     for (int k = 0; k < STAGES * n; k++) {
-        const double part = fabs(self->change[k]) / scale[k % n];
-        if (self->change[k] == 0) continue;
+        const double part = fabs(change[k]) / scale[k % n];
+        if (change[k] == 0) continue;
         if (isnan(part)) return part;
         sum += part * part;
         largest = fmax(largest, part);
@@ -63,12 +66,11 @@ static double measure(const zd_radau_newton *self)
     return self->has_scale ? sqrt(sum / (STAGES * n)) / ITERATION_ERROR : largest / CHANGE_ROUNDING;
 }
 
-/* change <- Newton's correction of w */
-static void solve(zd_radau_newton *self)
+/* x <- Newton's correction of w */
+static void solve(zd_radau_newton *self, double *x)
 {
     const int n = self->size;
     const double h = self->h, *w = self->w;
-    double *x = self->change;
     zd_radau_transform(n, zd_radau_T_inverse, self->f, x);
     for (int i = 0; i < n; i++) {
         x[i] -= ZD_RADAU_GAMMA / h * w[i];
@@ -114,11 +116,9 @@ static int test_for_rounding(zd_radau_newton *self, double norm, int *is_roundin
     if (*is_rounding || !(largest < NEVER * of_state)) return ZD_DONE;
     int status = evaluate_stages(self, 0x1p-52);
     if (status) return status;
-    zd_exchange(&self->change, &self->other);
-    solve(self);
-    for (int k = 0; k < STAGES * n; k++) self->change[k] -= self->other[k];
-    *is_rounding = norm <= ROUNDING_RATIO * measure(self);
-    zd_exchange(&self->change, &self->other);
+    solve(self, self->other);
+    for (int k = 0; k < STAGES * n; k++) self->other[k] -= self->change[k];
+    *is_rounding = norm <= ROUNDING_RATIO * measure(self, self->other);
     return ZD_DONE;
 }
 
@@ -128,9 +128,9 @@ static int residual(void *context, double *size)
     zd_radau_newton *self = context;
     int is_rounding = 0, status = evaluate_stages(self, 0);
     if (status) return status;
-    solve(self);
+    solve(self, self->change);
     see_sizes(self);
-    const double norm = measure(self), before = self->norm_before;
+    const double norm = measure(self, self->change), before = self->norm_before;
     const int left = WORTHWHILE - ++self->iterations;
     if (before > 0) self->contraction = norm / before;
     const double share = self->contraction;

@@ -46,13 +46,12 @@ static int suits(const zd_system *system)
     return !zd_is_too_large(system);
 }
 
-static void *create(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
+static void *create(zd_arena *arena, const void *table, zd_motion *motion, double *y, int size, const void *given)
 {
-    (void)given;
-    (void)table, (void)system;
+    (void)table, (void)given;
     const size_t n = (size_t)size;
     radau self = {
-        .newton = zd_radau_newton_create(arena, size),
+        .newton = zd_radau_newton_create(arena, &motion->rate, y, size),
         .f0 = zd_arena_doubles(arena, n),
         .before = zd_arena_doubles(arena, STAGES * n),
         .seen_before = zd_arena_doubles(arena, n),
@@ -78,7 +77,7 @@ static void start(radau *self)
 static void save_step(radau *self, double t, double h, const zd_rate *rate)
 {
     zd_radau_newton *it = &self->newton;
-    self->filters = !it->rate || t == it->t0;
+    self->filters = isnan(it->t0) || t == it->t0;
     if (rate->size != it->size || rate->pairs != it->matrices.pairs) {
         it->size = rate->size;
         it->h = self->previous_h = 0;
@@ -86,7 +85,7 @@ static void save_step(radau *self, double t, double h, const zd_rate *rate)
     }
     const double end = it->t0 + it->h;
     if (it->h != 0 && fabs(t - end) <= CHANGE_ROUNDING * fabs(end)) {
-        zd_exchange(&self->before, &it->z);
+        memcpy(self->before, it->z, (size_t)(STAGES * it->size) * sizeof *it->z);
         self->previous_h = it->h;
         if (it->by_stages) zd_radau_stages_give_J(&it->stages, &it->matrices);
     } else if (t != it->t0) self->previous_h = 0;
@@ -147,8 +146,6 @@ static int step(void *memory, const zd_rate *rate, double t, double h, double *y
     radau *self = memory;
     zd_radau_newton *it = &self->newton;
     save_step(self, t, h, rate);
-    it->rate = rate;
-    it->y0 = y;
     int status = zd_rate_of_beginning(rate, t, y, self->f0);
     if (status) return status;
     it->matrices.differences.min_size = MIN_INCREMENT * zd_max_abs(rate->size, y);
