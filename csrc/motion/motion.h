@@ -19,7 +19,7 @@ typedef struct zd_state {
 
 /* Acceleration at a zd_state, restored with it so that a step from there needs no evaluation. */
 typedef struct zd_cached_accelerations {
-    double *vdot, *lambda;  /* (nv,), (m,) */
+    double *vdot;           /* (nv + m,): with lambda, as at a point */
     double *pivots;         /* (nv,): pivots of the closed-form path, if the order is not negative */
     int order;              /* elimination order of these pivots, as zd_path has it */
     double smallest;        /* smallest of them, as zd_path has it */

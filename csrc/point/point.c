@@ -100,6 +100,7 @@ static zd_terms create_terms(zd_arena *arena, const zd_system *system)
 zd_point *zd_point_create(zd_arena *arena, const zd_system *system, zd_statistics *statistics)
 {
     size_t nq = (size_t)system->nq, nv = (size_t)system->nv, m = (size_t)zd_constraints(system);
+    double *vdot = zd_arena_doubles(arena, nv + m);
     zd_point point = {
         .system = system,
         .statistics = statistics,
@@ -108,8 +109,8 @@ zd_point *zd_point_create(zd_arena *arena, const zd_system *system, zd_statistic
         .p = zd_arena_doubles(arena, nq),
         .v = zd_arena_doubles(arena, nv),
         .terms = create_terms(arena, system),
-        .vdot = zd_arena_doubles(arena, nv),
-        .lambda = zd_arena_doubles(arena, m),
+        .vdot = vdot,
+        .lambda = vdot ? vdot + nv : NULL,
         .force = zd_arena_doubles(arena, nv),
         .rhs = zd_arena_doubles(arena, m),
         .unit = zd_arena_doubles(arena, nv),

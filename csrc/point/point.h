@@ -96,7 +96,7 @@ typedef struct zd_point {
     double t, *p, *v;
     zd_terms terms;
     double *inputs;         /* (2 inputs + 1,): of the system, which are terms.inputs; NULL without inputs */
-    double *vdot, *lambda;  /* (nv,), (m,) */
+    double *vdot, *lambda;  /* (nv,), and (m,) behind it */
     double *force, *rhs;    /* (nv,), (m,): right-hand sides under construction */
     zd_right_side awaited;  /* right-hand side of the solve after a factorization, which can process it on the way; x NULL: not known */
     zd_rank *rank;          /* NULL if the point only evaluates terms */

@@ -12,34 +12,36 @@
 zd_snapshot zd_snapshot_create(zd_arena *arena, const zd_stepper *stepper)
 {
     const zd_motion *motion = stepper->motion;
-    const size_t nv = (size_t)motion->system.nv;
-    return (zd_snapshot){
-        .state = zd_state_create(arena, motion),
-        .accelerations = {
-            .vdot = zd_arena_doubles(arena, nv),
-            .lambda = zd_arena_doubles(arena, (size_t)zd_constraints(&motion->system)),
-            .pivots = zd_arena_doubles(arena, nv),
-        },
+    const zd_system *system = &motion->system;
+    const size_t nv = (size_t)system->nv;
+    const int is_complete = !motion->formulation->update;     /* then y begins with p and v, as in zd_last */
+    double *y = zd_arena_doubles(arena, (size_t)stepper->capacity);
+    zd_snapshot self = {
+        .state = {.p = y, .v = y ? y + system->nq : NULL},
+        .has_accelerations = !zd_has_input(system) && !motion->corrections_size && !(system->provides & ZD_A) && !motion->reactions.reading,
         .of_integrator = zd_arena_copy(arena, stepper->memory_of_integrator.at, stepper->memory_of_integrator.bytes),
         .of_chosen = zd_arena_copy(arena, motion->memory_of_chosen.at, motion->memory_of_chosen.bytes),
-        .y = zd_arena_doubles(arena, (size_t)stepper->capacity),
+        .y = y,
     };
+    if (!is_complete) self.state = zd_state_create(arena, motion);
+    if (!self.has_accelerations) return self;
+    self.accelerations.vdot = zd_arena_doubles(arena, nv + (size_t)zd_constraints(system));
+    self.accelerations.pivots = zd_arena_doubles(arena, nv);
+    return self;
 }
 
 static void take_accelerations(zd_snapshot *self, const zd_motion *motion)
 {
     const zd_point *point = motion->point;
     zd_cached_accelerations *to = &self->accelerations;
-    const int has_more = motion->balance.input || motion->corrections_size || motion->formulation->update || point->terms.A
-        || motion->reactions.reading;
-    to->are_known = (point->known & ZD_ACCELERATED) && !has_more;
-    self->is_factored = (point->known & ZD_FACTORED) && !to->are_known && !motion->formulation->update;
+    const int may_keep = !motion->formulation->update;
+    to->are_known = self->has_accelerations && may_keep && (point->known & ZD_ACCELERATED);
+    self->is_factored = may_keep && !to->are_known && (point->known & ZD_FACTORED);
     if (!to->are_known) return;
     zd_rank_find_multipliers(point);
     to->order = motion->path.order;
     to->smallest = motion->path.smallest;
-    zd_copy_all(motion->system.nv, point->vdot, to->vdot);
-    zd_copy_all(zd_constraints(&motion->system), point->lambda, to->lambda);
+    zd_copy_all(motion->system.nv + zd_constraints(&motion->system), point->vdot, to->vdot);
     if (to->order >= 0) zd_copy_all(motion->system.nv, motion->path.pivots, to->pivots);
 }
 
@@ -52,8 +54,7 @@ static int restore_accelerations(const zd_snapshot *self, zd_motion *motion)
     motion->point->known |= ZD_ACCELERATED;
     zd_rank_discard_awaited(motion->point);
     motion->path.smallest = from->smallest;
-    zd_copy_all(motion->system.nv, from->vdot, motion->point->vdot);
-    zd_copy_all(zd_constraints(&motion->system), from->lambda, motion->point->lambda);
+    zd_copy_all(motion->system.nv + zd_constraints(&motion->system), from->vdot, motion->point->vdot);
     if (from->order >= 0) zd_copy_all(motion->system.nv, from->pivots, motion->path.pivots);
     return ZD_DONE;
 }
@@ -63,7 +64,6 @@ static void take_choice(zd_snapshot *self, const zd_stepper *stepper)
     const zd_motion *motion = stepper->motion;
     zd_rank *rank = motion->point->rank;
     memcpy(self->of_chosen, motion->memory_of_chosen.at, motion->memory_of_chosen.bytes);
-    zd_copy(motion->rate.size, stepper->y, self->y);
     self->is_dependent = motion->formulation != stepper->chosen.formulation;
     self->was_ill_conditioned = rank->was_ill_conditioned;
     self->was_deficient = rank->was_deficient;
@@ -81,10 +81,8 @@ static void restore_choice(const zd_snapshot *self, zd_stepper *stepper)
     motion->point->known &= motion->point->constant;
 }
 
-static void restore_integrated(const zd_snapshot *self, zd_stepper *stepper)
+static void restore_flags(const zd_snapshot *self, zd_rank *rank)
 {
-    zd_rank *rank = stepper->motion->point->rank;
-    zd_copy(stepper->motion->rate.size, self->y, stepper->y);
     rank->was_ill_conditioned = self->was_ill_conditioned;
     rank->was_deficient = self->was_deficient;
     rank->was_doubtful = self->was_doubtful;
@@ -93,7 +91,9 @@ static void restore_integrated(const zd_snapshot *self, zd_stepper *stepper)
 void zd_snapshot_take(zd_snapshot *self, zd_stepper *stepper, int sections)
 {
     self->sections = sections;
-    zd_stepper_save_state(stepper, &self->state);
+    self->state.t = stepper->t;
+    zd_copy_all(stepper->motion->rate.size, stepper->y, self->y);
+    if (self->state.p != self->y) zd_stepper_save_state(stepper, &self->state);
     if (sections & ZD_ACCELERATIONS) take_accelerations(self, stepper->motion);
     if (sections & (ZD_VARIABLES | ZD_MEMORY)) take_choice(self, stepper);
     if (sections & ZD_MEMORY) memcpy(self->of_integrator, stepper->memory_of_integrator.at, stepper->memory_of_integrator.bytes);
@@ -104,7 +104,12 @@ int zd_snapshot_restore(zd_snapshot *self, zd_stepper *stepper)
     const int has_choice = self->sections & (ZD_VARIABLES | ZD_MEMORY);
     if (self->sections & ZD_MEMORY) memcpy(stepper->memory_of_integrator.at, self->of_integrator, stepper->memory_of_integrator.bytes);
     if (has_choice) restore_choice(self, stepper);
-    const int status = zd_stepper_return_to(stepper, &self->state);
-    if (has_choice) restore_integrated(self, stepper);
+    int status = ZD_DONE;
+    if (self->state.p == self->y) zd_point_move(stepper->motion->point, self->state.t, self->state.p, self->state.v);
+    else status = zd_stepper_return_to(stepper, &self->state);
+    stepper->t = self->state.t;
+    stepper->motion->state = stepper->y;
+    zd_copy_all(stepper->motion->rate.size, self->y, stepper->y);
+    if (has_choice) restore_flags(self, stepper->motion->point->rank);
     return status || !(self->sections & ZD_ACCELERATIONS) ? status : restore_accelerations(self, stepper->motion);
 }

@@ -11,8 +11,9 @@ enum {
 };
 
 typedef struct zd_snapshot {
-    zd_state state;
+    zd_state state;         /* p and v are in y if the integrated state begins with them */
     int sections;
+    int has_accelerations;  /* true if accelerations are functions of p and v only */
     zd_cached_accelerations accelerations;
     int is_factored;        /* true if the leading matrix is factored there, and accelerations are not known */
     void *of_integrator, *of_chosen;    /* copies of memory_of_integrator and memory_of_chosen */
