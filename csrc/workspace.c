@@ -8,7 +8,7 @@
 #include <malloc.h>
 #endif
 
-enum { CACHE_LINE = 64 };
+enum { CACHE_LINE = 64, HALF_LINE = CACHE_LINE / 2 };
 
 _Static_assert(sizeof(zd_memory) <= CACHE_LINE, "a header fits in the line before its block");
 
@@ -21,25 +21,32 @@ _Static_assert(sizeof(zd_memory) <= CACHE_LINE, "a header fits in the line befor
 #define GIVE_BACK free
 #endif
 
-static size_t round_up(size_t bytes)
+/* To a multiple of `unit`, a power of two */
+static size_t round_up(size_t bytes, size_t unit)
 {
-    return (bytes + CACHE_LINE - 1) / CACHE_LINE * CACHE_LINE;
+    return (bytes + unit - 1) & ~(unit - 1);
+}
+
+/* Memory that begins and ends at multiples of `unit`. */
+static void *allocate(zd_arena *arena, size_t bytes, size_t unit)
+{
+    const size_t from = round_up(arena->used, unit);
+    arena->used = from + round_up(bytes, unit);
+    return arena->base ? arena->base + from : NULL;
 }
 
 void *zd_arena_bytes(zd_arena *arena, size_t bytes)
 {
-    void *here = arena->base ? arena->base + arena->used : NULL;
-    arena->used += round_up(bytes);
+    void *here = allocate(arena, bytes, CACHE_LINE);
+    const size_t lines = round_up(bytes, CACHE_LINE) / CACHE_LINE;
+    if (arena->has_others) memset(arena->has_others + arena->used / CACHE_LINE - lines, 1, lines);
     return here;
 }
 
-/* Memory of numbers only. */
+/* Memory of numbers only: two short arrays share a line. */
 static void *take_numbers(zd_arena *arena, size_t bytes)
 {
-    const size_t from = arena->used / CACHE_LINE;
-    void *here = zd_arena_bytes(arena, bytes);
-    if (arena->has_numbers) memset(arena->has_numbers + from, 1, arena->used / CACHE_LINE - from);
-    return here;
+    return allocate(arena, bytes, bytes > HALF_LINE ? CACHE_LINE : HALF_LINE);
 }
 
 double *zd_arena_doubles(zd_arena *arena, size_t count) { return take_numbers(arena, count * sizeof(double)); }
@@ -59,7 +66,7 @@ zd_span zd_span_since(const zd_arena *arena, size_t used)
 
 void *zd_allocate(size_t bytes)
 {
-    size_t size = round_up(bytes ? bytes : 1);
+    size_t size = round_up(bytes ? bytes : 1, CACHE_LINE);
     void *memory = TAKE_ALIGNED(size);
     return memory ? memset(memory, 0, size) : NULL;
 }
@@ -71,11 +78,11 @@ void zd_release(void *memory)
 
 zd_memory *zd_memory_create(size_t bytes)
 {
-    bytes = round_up(bytes);
+    bytes = round_up(bytes, CACHE_LINE);
     unsigned char *block = zd_allocate(CACHE_LINE + bytes + bytes / CACHE_LINE);
     if (!block) return NULL;
     zd_memory *memory = (void *)block;
-    *memory = (zd_memory){.bytes = bytes, .base = block + CACHE_LINE, .has_numbers = block + CACHE_LINE + bytes};
+    *memory = (zd_memory){.bytes = bytes, .base = block + CACHE_LINE, .has_others = block + CACHE_LINE + bytes};
     return memory;
 }
 

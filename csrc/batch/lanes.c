@@ -141,6 +141,7 @@ void zd_lanes_create(zd_lanes *self, zd_arena *arena, const zd_run *run, const z
     const zd_settings *settings = &run->settings;
     const zd_system *system = &run->motion.system;
     const zd_guard *guard = &run->safeguards.guard;
+    zd_arena_bytes(arena, 0);       /* no gap before the first array */
     const size_t before = arena->used;
     *self = (zd_lanes){
         .closed_form = closed_form, .method = method_of(run->stepper.integrator), .lanes = functions->lanes,

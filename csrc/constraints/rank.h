@@ -30,10 +30,10 @@ struct zd_rank {
     double *start_square;   /* (m,): squared lengths of the rows at the start */
     double *terms_square;   /* (m,): squared magnitudes of the terms summed in each row; where not known, start_square */
     double *rhs;            /* (m,): right-hand side, for formulations that compute the velocity; else NULL */
-    zd_rank_monitor *monitor;          /* monitor of all constraints; NULL if is_large */
+    zd_rank_monitor *monitor;          /* monitor of all constraints; NULL if is_large, or for few dense ones */
     zd_store *store;        /* memory for symbolic structures, made when they are first needed */
     zd_selection *selection;    /* NULL if is_large */
-    zd_rank_monitor *kept;          /* monitor of the selection kept from step to step, and of its change; NULL if is_large */
+    zd_rank_monitor *kept;          /* monitor of the selection kept from step to step, and of its change; NULL if none is redundant */
 };
 
 /* Selection of independent constraints where some are linearly dependent. */
@@ -58,7 +58,7 @@ struct zd_selection {
     int are_awaited;        /* 1: multipliers of the point's acceleration are pending; lambda_r holds the independent ones */
     double *lambda_r;       /* (rows,) */
     double *R;              /* (independent, independent): C_r = R Q, of zd_rank_set_basis() */
-    zd_limits *limits;
+    zd_limits *limits;      /* NULL for a motion that ends at a bifurcation */
 };
 
 /* Relative residual norm below which a row is linearly dependent on the others. It must hold both in the plain metric, which does not

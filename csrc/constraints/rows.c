@@ -15,7 +15,7 @@ static void keep_selection(zd_point *point, int is_ill)
 {
     zd_rank *self = point->rank;
     const int is_complete = self->is_started && point->rows == self->max_rank && self->max_rank < self->m && !self->lost && !is_ill;
-    if (self->is_auxiliary) return;
+    if (self->is_auxiliary || !self->kept) return;
     self->kept->is_known = 0;
     if (is_complete) zd_rank_monitor_keep_selection(self->kept, point);
 }
@@ -97,7 +97,7 @@ void zd_use_all_constraints(zd_point *point)
 static int use_kept(zd_point *point)
 {
     const zd_rank_monitor *kept = point->rank->kept;
-    if (!kept->is_known || !zd_rank_monitor_is_unchanged(kept, point)) return 0;
+    if (!kept || !kept->is_known || !zd_rank_monitor_is_unchanged(kept, point)) return 0;
     zd_rank_use(point, kept->row, kept->close.m);
     point->known |= ZD_RANKED;
     return 1;

@@ -55,13 +55,6 @@ static void *create(zd_arena *arena, const zd_system *system, const void *given)
     return zd_arena_copy(arena, &self, sizeof self);
 }
 
-static void lend_workspace(void *memory, double **Q, double **G)
-{
-    const augmented *self = memory;
-    *Q = self->G;                       /* half of (n + m)^2 is at least m n + m^2, as m <= n */
-    *G = self->G + self->m * self->n;
-}
-
 /* Sets the scales to powers of two, so that scaling is exact. */
 static void set_scales(augmented *self, const double *M, const double *C)
 {
@@ -155,7 +148,6 @@ const zd_formulation zd_augmented = {
     .many_constraints = ZD_MANY_CONSTRAINTS,
     .has_matrices_evaluated = 1,
     .create = create,
-    .lend_workspace = lend_workspace,
     .factor = factor,
     .solve = solve,
 };

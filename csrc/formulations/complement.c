@@ -36,12 +36,6 @@ zd_complement zd_complement_create(zd_arena *arena, const zd_system *system, dou
     };
 }
 
-void zd_complement_lend(const zd_complement *self, double **Q, double **G)
-{
-    *Q = self->choice;
-    *G = self->K;
-}
-
 /* ---- by variable partitioning ---- */
 
 static int choose(zd_complement *self, zd_point *point)

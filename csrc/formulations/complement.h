@@ -30,8 +30,6 @@ typedef struct zd_complement {
 
 /* `workspace` (m, n): used only while D is not known at the point. */
 zd_complement zd_complement_create(zd_arena *arena, const zd_system *system, double *workspace);
-/* Work space Q (m, n) and G (m, m), free until the independent constraints are known. */
-void zd_complement_lend(const zd_complement *self, double **Q, double **G);
 /* Computes D and K at the point, once for each (t, p). */
 int zd_complement_at(zd_complement *self, zd_point *point);
 /* Selects these velocities (r,) as u, until they are badly conditioned. */

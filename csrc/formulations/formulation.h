@@ -30,9 +30,6 @@ typedef struct zd_formulation {
     int (*factor)(void *self, zd_point *point);
     /* True if factor() of this system itself shows the independence of the constraints, as it orthogonalizes them; NULL: it never does. */
     int (*finds_independent)(const zd_system *system);
-    /* Work space Q (m, n) and G (m, m), m <= n, that factor() does not use before the independent constraints are known, and that their
-     * selection may use meanwhile; NULL: there is none. */
-    void (*lend_workspace)(void *self, double **Q, double **G);
     /* Solves M x + C^T lambda = force, C x = rhs with the factors. force NULL: zero; lambda NULL: not required. */
     void (*solve)(void *self, const double *force, const double *rhs, double *x, double *lambda);
     int (*unpack)(void *self, zd_point *point, double t, const double *y);   /* state -> (p, v) of the point */

@@ -166,7 +166,6 @@ const zd_formulation zd_independent = {
     .suits = suits,
     .state_size = state_size,
     .create = create,
-    .lend_workspace = zd_minimal_lend,
     .factor = zd_minimal_factor,
     .solve = zd_minimal_solve,
     .unpack = unpack,

@@ -37,12 +37,6 @@ zd_minimal zd_minimal_create_many(zd_arena *arena, const zd_system *system)
     return (zd_minimal){.many = zd_partition_sparse_create(arena, system)};
 }
 
-void zd_minimal_lend(void *memory, double **Q, double **G)
-{
-    zd_minimal *self = memory;
-    zd_complement_lend(&self->complement, Q, G);
-}
-
 int zd_minimal_factor(void *memory, zd_point *point)
 {
     zd_minimal *self = memory;

@@ -22,7 +22,6 @@ typedef struct zd_minimal {
 zd_minimal zd_minimal_create(zd_arena *arena, const zd_system *system, double *workspace);
 /* For a declared structure with many constraints. */
 zd_minimal zd_minimal_create_many(zd_arena *arena, const zd_system *system);
-void zd_minimal_lend(void *self, double **Q, double **G);
 int zd_minimal_factor(void *self, zd_point *point);
 void zd_minimal_solve(void *self, const double *force, const double *rhs, double *x, double *lambda);
 /* Records, before the point moves to time t, the time since its acceleration: used where u alone does not determine v. */

@@ -47,12 +47,6 @@ static void *create(zd_arena *arena, const zd_system *system, const void *given)
     return zd_arena_copy(arena, &self, sizeof self);
 }
 
-static void lend_workspace(void *memory, double **Q, double **G)
-{
-    nullspace *self = memory;
-    zd_complement_lend(&self->complement, Q, G);
-}
-
 /* Scales rows of different units, so that pivots are comparable. */
 static void scale_row(int n, double *row, double *scale)
 {
@@ -127,7 +121,6 @@ const zd_formulation zd_nullspace = {
     .many_constraints = ZD_MANY_CONSTRAINTS,
     .has_matrices_evaluated = 1,
     .create = create,
-    .lend_workspace = lend_workspace,
     .factor = factor,
     .solve = solve,
 };

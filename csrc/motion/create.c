@@ -4,23 +4,22 @@
 #include "../constraints/rank.h"
 #include "../constraints/rank_monitor.h"
 
-/* Memory for the selection of independent constraints, with its monitors: the formulation lends its own where factoring does not determine
- * the rank. Large structures have none. */
-static zd_rank *create_rank(zd_motion *motion, zd_arena *arena, const zd_system *independent)
+/* Memory for the selection of independent constraints, with its monitors. Large structures have none. */
+static zd_rank *create_rank(zd_motion *motion, zd_arena *arena, const zd_system *independent, enum zd_on_singular on_singular)
 {
     const zd_formulation *formulation = motion->formulation;
     const zd_system *system = &motion->system;
     const int is_large = zd_has_many_constraints(formulation, system), is_dense = !system->structure;
     zd_rank *rank = zd_rank_create(arena, system, is_large);
     double *rhs = formulation->update ? zd_arena_doubles(arena, (size_t)zd_constraints(system)) : NULL;
-    const int finds = formulation->finds_independent && formulation->finds_independent(system);
-    const int has_rank = is_dense && (finds || zd_constraints(system) <= ZD_FEW_CONSTRAINTS);
-    const int lends = formulation->lend_workspace && zd_constraints(independent) == zd_constraints(system) && is_dense && !has_rank;
-    double counted, *Q = lends ? &counted : NULL, *G = Q;
-    if (motion->solver && lends) formulation->lend_workspace(motion->solver, &Q, &G);
-    zd_rank_monitor *monitor = is_large ? NULL : zd_rank_monitor_create(arena, system, Q, G);
-    zd_rank_monitor *kept = is_large ? NULL : zd_rank_monitor_create_selection(arena, system);
-    zd_limits *limits = is_large ? NULL : zd_limits_create(arena, system);
+    const int is_full = zd_constraints(independent) == zd_constraints(system);
+    const int are_few = is_dense && zd_constraints(system) <= ZD_FEW_CONSTRAINTS;
+    /* The selection's work space is free while a full check finds whether one is needed. */
+    double counted, *Q = &counted, *G = &counted;
+    if (rank && rank->selection) Q = rank->selection->Q, G = rank->selection->G;
+    zd_rank_monitor *monitor = is_large || are_few ? NULL : zd_rank_monitor_create(arena, system, Q, G);
+    zd_rank_monitor *kept = is_large || is_full ? NULL : zd_rank_monitor_create_selection(arena, system);
+    zd_limits *limits = is_large || on_singular == ZD_STOP ? NULL : zd_limits_create(arena, system);
     if (!rank) return NULL;
     rank->monitor = monitor;
     rank->kept = kept;
@@ -31,7 +30,7 @@ static zd_rank *create_rank(zd_motion *motion, zd_arena *arena, const zd_system 
 }
 
 void zd_motion_create(zd_motion *motion, zd_arena *arena, const zd_system *system, const zd_system *independent,
-                    const zd_formulation *formulation, const void *given)
+                    const zd_formulation *formulation, const void *given, enum zd_on_singular on_singular)
 {
     const int has_products = system->operations && system->operations->add_weighted;
     const int has_own = has_products && formulation->has_matrices_evaluated && zd_has_many_constraints(formulation, system);
@@ -54,7 +53,8 @@ void zd_motion_create(zd_motion *motion, zd_arena *arena, const zd_system *syste
         .memory_of_chosen = zd_span_since(arena, used),
     };
     motion->point = zd_point_create(arena, &motion->system, &motion->statistics);
-    zd_rank *rank = create_rank(motion, arena, independent);
+    motion->scratch_elsewhere = zd_arena_doubles(arena, (size_t)system->scratch);
+    zd_rank *rank = create_rank(motion, arena, independent, on_singular);
     if (motion->point) {
         motion->point->rank = rank;
         motion->point->C = motion->point->terms.C;      /* all constraints, until some are selected */

@@ -188,6 +188,7 @@ struct zd_motion {
     zd_statistics statistics;
     zd_tally *tally;        /* counters of the run */
     zd_point *point;        /* quantities at the current (t, p, v) */
+    double *scratch_elsewhere;      /* scratch memory of the system for evaluations elsewhere, each with ZD_MOVED */
     const zd_formulation *formulation;
     void *solver;           /* memory of the formulation */
     const zd_equations *equations;      /* chosen with the evaluation path */
@@ -216,7 +217,7 @@ struct zd_motion {
 
 /* create.c: initializes the motion in place. `independent` has the system's sizes with the number of independent constraints. */
 void zd_motion_create(zd_motion *motion, zd_arena *arena, const zd_system *system, const zd_system *independent,
-                    const zd_formulation *formulation, const void *given);
+                    const zd_formulation *formulation, const void *given, enum zd_on_singular on_singular);
 /* Adds a correction with its parameters. */
 void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *correction, const void *given);
 /* Attaches the state (rate.size,), after all corrections have been enabled. */

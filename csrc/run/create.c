@@ -65,7 +65,8 @@ static zd_run *create_run(zd_arena *arena, const zd_system *system, const zd_set
     const zd_integrator *integrator = zd_integrator_of(settings->integrator);
     const zd_formulation *formulation = zd_formulation_of(settings->formulation);
     run->settings = *settings;
-    zd_motion_create(motion, arena, system, independent, formulation, complete(&run->settings.of_formulation, &formulation->card));
+    zd_motion_create(motion, arena, system, independent, formulation, complete(&run->settings.of_formulation, &formulation->card),
+                     settings->on_singular);
     zd_reactions_create(motion, arena);
     for (int row = 0; row < zd_entry_count(ZD_CORRECTIONS); row++)
         if (settings->correction[row].given) zd_motion_enable(motion, arena, zd_correction_of(row), run->settings.correction[row].value);
@@ -85,8 +86,7 @@ static zd_run *create_run(zd_arena *arena, const zd_system *system, const zd_set
         .stepper = &run->stepper,
         .safeguards = &run->safeguards,
         .sizes = settings->steps == ZD_FIXED_STEPS ? &zd_fixed_sizes : &zd_adaptive_sizes,
-        .end = settings->t1, .limit = INFINITY,
-        .t_begin = settings->t0,
+        .end = settings->t1, .limit = INFINITY, .t_begin = settings->t0,
     };
     if (zd_is_adaptive(&run->loop)) run->loop.control = zd_adaptive_create(arena, &run->stepper, settings->t0);
     else run->loop.undivided = zd_state_create(arena, motion);

@@ -45,7 +45,6 @@ static zd_crossing_memory *create_memory(zd_arena *arena, const zd_motion *motio
         .v1 = zd_arena_doubles(arena, n),
         .turn = zd_arena_doubles(arena, has_turn ? m * m : 0),
         .order = zd_arena_ints(arena, m),
-        .scratch = zd_arena_doubles(arena, (size_t)system->scratch),
     };
     return zd_arena_copy(arena, &self, sizeof self);
 }
@@ -92,7 +91,7 @@ static int evaluate_beginning(zd_crossing *self)
     const zd_last *last = self->last;
     zd_point there = *motion->point;
     there.terms.C = self->memory->previous;
-    there.terms.scratch = self->memory->scratch;
+    there.terms.scratch = motion->scratch_elsewhere;
     motion->statistics.evaluations++;
     if (system->evaluate(system->data, ZD_C | ZD_MOVED, last->t, last->p, last->v, &there.terms)) return ZD_CALLBACK;
     store_rows(&there, self->memory->C);

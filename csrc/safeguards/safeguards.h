@@ -11,7 +11,7 @@ typedef struct zd_turning {
     zd_motion *motion;
     const zd_last *last;        /* the step */
     const double *vdot0, *pdot0, *pdot1;    /* (nv,), (nq,), (nq,): rates at its start; at its end */
-    double *A0, *scratch;       /* stored as the point's: A at the start, and scratch memory of the system */
+    double *A0;                 /* stored as the point's: A at the start */
     double *before, *after;     /* (nq,): A vdot at both ends */
 } zd_turning;
 
@@ -55,7 +55,6 @@ typedef struct zd_consistency {
     double *direction;      /* (nv + 1,): w, s */
     double *pdot, *p;       /* (nq,): A w; displaced coordinates */
     double *Phi, *quotient, *central;   /* (mh,): displaced Phi; difference quotients; the central one */
-    double *scratch;        /* scratch memory of the system for displaced evaluations */
     int row, column;        /* the wrong entry of C; column nv is Phi_t */
     double given, found;    /* its given value, and its value by differences */
 } zd_consistency;
@@ -75,7 +74,6 @@ typedef struct zd_crossing_memory {
     double *p, *p1, *v1;    /* (nq,), (nq,), (nv,): intermediate point; end of the step */
     double *turn;           /* (m, m): C1 W C0^T, factored */
     int *order;             /* (m,) pivots of its factors */
-    double *scratch;        /* scratch memory of the system for these evaluations */
 } zd_crossing_memory;
 
 typedef struct zd_crossing {

@@ -15,7 +15,7 @@ static double state[1000];
 
 static void lay_out(zd_arena *arena, const zd_system *system, const zd_system *independent, int formulation)
 {
-    zd_motion_create(&motion, arena, system, independent, formulations[formulation], NULL);
+    zd_motion_create(&motion, arena, system, independent, formulations[formulation], NULL, ZD_STOP);
     zd_motion_create_jacobian(&motion, arena);
     motion.tally = &tally;
 }
