@@ -115,11 +115,17 @@ int zd_run_accelerations(zd_run *run, double *vdot, double *multipliers)
     return ZD_DONE;
 }
 
-int zd_run_is_deficient(const zd_run *run) { return zd_rank_is_deficient(run->motion.point); }
-
-const double *zd_run_functions(const zd_run *run)
+int zd_run_measure(zd_run *run, const zd_system *system, int measure, double t, const double *p, const double *v, double *value,
+                   double *scratch)
 {
-    return run->motion.system.reading ? run->motion.point->inputs : NULL;
+    const zd_measures *all = system->measures;
+    const int is_dynamic = all->measure[measure].depends == ZD_OF_ACCELERATIONS;
+    double *vdot = is_dynamic ? scratch + all->scratch : NULL, *multipliers = is_dynamic ? vdot + system->nv : NULL;
+    const int status = is_dynamic ? zd_run_accelerations(run, vdot, multipliers) : ZD_DONE;
+    if (status) return status;
+    zd_measured at = {.value = value, .is_least = is_dynamic && !zd_rank_is_deficient(run->motion.point)};
+    const double *functions = run->motion.system.reading ? run->motion.point->inputs : NULL;
+    return all->evaluate(system->data, functions, measure, t, p, v, vdot, multipliers, &at, scratch);
 }
 
 int zd_run_energy_violation(zd_run *run, double *violation)

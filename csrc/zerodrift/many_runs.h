@@ -22,6 +22,9 @@ typedef struct zd_open_lanes zd_open_lanes;
 void zd_open_runs_advance(const zd_open_runs *self, int64_t first, int64_t count, int64_t steps, double t);
 /* Stores the states only. */
 void zd_open_runs_read(const zd_open_runs *self, int64_t first, int64_t count);
+/* zd_run_measure() of all: values (runs, size). systems (runs,): those that have the measures. For a measure of accelerations no run may be
+ * behind its lane. */
+int zd_open_runs_measure(const zd_open_runs *self, const zd_system *const *systems, int measure, double *values, double *scratch);
 
 /* True if SIMD lanes suit the system and the settings of a run, provided that it has closed-form functions for them. */
 int zd_lanes_serve_settings(const zd_system *system, const zd_settings *settings);

@@ -110,10 +110,10 @@ int64_t zd_run_step_number(const zd_run *run);              /* steps made */
 int zd_run_ended_by(const zd_run *run);                     /* index of the terminal event at which it is; -1: none */
 /* Accelerations (nv,) and multipliers (m,) at the present state, which are those of the next step's start. */
 int zd_run_accelerations(zd_run *run, double *vdot, double *multipliers);
-/* 1 if some constraints depend on others at the present state, whose accelerations are known. */
-int zd_run_is_deficient(const zd_run *run);
-/* Values of the user functions of forces that read reactions, which those accelerations have; NULL: there are none. */
-const double *zd_run_functions(const zd_run *run);
+/* value (size,) <- a measure of a system with the equations of the run, at its present state; t, p and v of a run in SIMD lanes may be ahead
+ * of it, for a measure of positions or velocities. scratch: memory of the measures, and nv + m. */
+int zd_run_measure(zd_run *run, const zd_system *system, int measure, double t, const double *p, const double *v, double *value,
+                   double *scratch);
 /* Jumps of speeds so far. Of the last one: its time, s; its impulses (m,), of the constraints, with the sign of (7); and their works (m,), J,
  * whose sum enters the energy balance. Velocities are projected as in (25b): M (v+ - v-) = -C^T impulses. */
 typedef struct zd_jump {

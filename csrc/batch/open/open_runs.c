@@ -31,3 +31,13 @@ void zd_open_runs_advance(const zd_open_runs *self, int64_t first, int64_t count
         read_state(self, i);
     }
 }
+
+int zd_open_runs_measure(const zd_open_runs *self, const zd_system *const *systems, int measure, double *values, double *scratch)
+{
+    const int64_t nq = (*systems)->nq, nv = (*systems)->nv, size = (*systems)->measures->measure[measure].size;
+    int status = ZD_DONE;
+    for (int64_t i = 0; i < self->runs && !status; i++)
+        status = zd_run_measure(self->run[i], systems[i], measure, self->t[i], self->p + i * nq, self->v + i * nv, values + i * size,
+                                scratch);
+    return status;
+}

@@ -18,10 +18,8 @@ static zd_opened *create(zd_arena *arena, const zd_block *block)
     zd_opened nowhere, *here = zd_arena_bytes(arena, sizeof *here), *self = here ? here : &nowhere;
     self->p = zd_arena_doubles(arena, (size_t)system->nq);
     self->v = zd_arena_doubles(arena, (size_t)system->nv);
-    self->vdot = zd_arena_doubles(arena, (size_t)system->nv);
-    self->lambda = zd_arena_doubles(arena, (size_t)(system->mh + system->mn));
     self->Phi = zd_arena_doubles(arena, (size_t)system->mh);
-    const int of_measures = system->measures->scratch;
+    const int of_measures = system->measures->scratch + system->nv + system->mh + system->mn;
     self->scratch = zd_arena_doubles(arena, (size_t)(of_measures > system->scratch ? of_measures : system->scratch));
     const size_t inputs = (size_t)zd_block_inputs(block);
     self->initial = zd_arena_doubles(arena, inputs);
@@ -185,21 +183,11 @@ int zd_opened_advance(zd_opened *self, double t)
     return advance(self, isfinite(t) ? zd_run_set_goal(self->run, INT64_MAX, t) : ZD_BAD_ARGUMENT);
 }
 
-static int evaluate(zd_opened *self, int measure, const double *vdot, const double *lambda, double *value)
-{
-    const zd_system *system = zd_block_system(self->block);
-    const zd_measured out = {.value = value, .is_least = lambda && !zd_run_is_deficient(self->run)};
-    return system->measures->evaluate(system->data, NULL, measure, zd_run_time(self->run), zd_run_p(self->run), zd_run_v(self->run), vdot,
-                                      lambda, &out, self->scratch);
-}
-
 int zd_opened_measure(zd_opened *self, int measure, double *value)
 {
-    const zd_measures *measures = zd_block_system(self->block)->measures;
-    if (measure < 0 || measure >= measures->count) return ZD_BAD_ARGUMENT;
-    if (measures->measure[measure].depends != ZD_OF_ACCELERATIONS) return evaluate(self, measure, NULL, NULL, value);
-    const int status = zd_run_accelerations(self->run, self->vdot, self->lambda);
-    return status ? status : evaluate(self, measure, self->vdot, self->lambda, value);
+    const zd_system *system = zd_block_system(self->block);
+    if (measure < 0 || measure >= system->measures->count) return ZD_BAD_ARGUMENT;
+    return zd_run_measure(self->run, system, measure, zd_run_time(self->run), zd_run_p(self->run), zd_run_v(self->run), value, self->scratch);
 }
 
 void zd_opened_poses(zd_opened *self, double *poses) { zd_block_poses(self->block, zd_run_p(self->run), poses, self->scratch); }

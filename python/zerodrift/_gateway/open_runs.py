@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 from .._core import ffi, lib
-from .base import doubles
+from .base import doubles, error_of
 from .runs import Run
+from .systems import CoreSystem
 
 STEP = lib.zd_run_step      # status of so many steps of a run, with a record or NULL: the call that controllers make
 NO_RECORD = ffi.NULL
@@ -82,18 +83,31 @@ class OpenRun(Run):
         """Accelerations (nv,) and multipliers (m,) at the present state."""
         _, nv, m = self.sizes
         vdot, multipliers = np.empty(nv), np.empty(m)
-        self.accelerations_into(doubles(vdot, nv, writable=True), doubles(multipliers, m, writable=True))
-        return vdot, multipliers
-
-    def accelerations_into(self, vdot: Any, multipliers: Any) -> None:
-        """Accelerations and multipliers, stored in memory of C."""
-        if status := lib.zd_run_accelerations(self.c, vdot, multipliers):
+        if status := lib.zd_run_accelerations(self.c, doubles(vdot, nv, writable=True), doubles(multipliers, m, writable=True)):
             raise self.error(status)
+        return vdot, multipliers
 
     def entry(self, group: int, column: int) -> Callable[[], float]:
         """Function that returns a coordinate (group 0) or velocity (1) at the present state."""
         pointer = (self.c_p, self.c_v)[group]
         return lambda: pointer[column]
+
+    def measure(self, of: CoreSystem, number: int, component: int | None) -> Callable[[], Any]:
+        """Function that returns a measure of a system with the equations of the run, or a component of it, at the present state.
+
+        The value is a float, or an array (size,).
+        """
+        size, scratch = of.measure_size(number), ffi.new("double[]", of.c.measures.scratch + of.nv + of.m)
+        value, place = np.empty(size), 0 if size == 1 else component
+        memory, at = doubles(value, size, writable=True), (self.c_p, self.c_v)
+        run, system = self.c, of.c
+
+        def read() -> Any:
+            if status := lib.zd_run_measure(run, system, number, lib.zd_run_time(run), *at, memory, scratch):
+                raise of.error or self.error(status)
+            return value.copy() if place is None else float(value[place])
+
+        return read
 
     def forget_errors(self) -> None:
         """Clear stored exceptions of user functions once they have been raised, so that the run may continue."""
@@ -111,6 +125,8 @@ class ManyOpenRuns:
     Parameters
     ----------
     runs : sequence of OpenRun
+    of : sequence
+        The attribute `measured` of each is the system that has its measures, which is needed when the first is read.
     parts : sequence of (int, int)
         Runs that one thread advances: the first one, and their number.
 
@@ -124,12 +140,13 @@ class ManyOpenRuns:
         SIMD lanes of each part; NULL: its runs are made one by one.
     """
 
-    def __init__(self, runs: Sequence[OpenRun], parts: Sequence[tuple[int, int]]) -> None:
+    def __init__(self, runs: Sequence[OpenRun], of: Sequence[Any], parts: Sequence[tuple[int, int]]) -> None:
         self._runs, (nq, nv, _) = list(runs), runs[0].sizes
         count = len(runs)
         self.status, self.t = np.zeros(count, dtype=np.intc), np.empty(count)
         self.p, self.v = np.empty((count, nq)), np.empty((count, nv))
         self._pointers = ffi.new("zd_run *[]", [run.c for run in runs])
+        self._of, self._systems = list(of), None
         self.c = ffi.new("zd_open_runs *", {
             "runs": count, "run": self._pointers, "status": ffi.from_buffer("int[]", self.status, require_writable=True),
             "t": doubles(self.t, count, writable=True), "p": doubles(self.p, self.p.size, writable=True),
@@ -154,13 +171,30 @@ class ManyOpenRuns:
             raise run.error(status)
         return run
 
-    def replace(self, i: int, run: OpenRun) -> None:
+    def replace(self, i: int, run: OpenRun, of: Any) -> None:
         """Replace one of the runs, and store its present state."""
+        self._of[i] = of
+        if self._systems:
+            self._systems[i] = of.measured.c
         self._runs[i], self._pointers[i], self.status[i] = run, run.c, 0
         if lanes := self._lanes_of(i):
             self._numbers[i] = run.lane_numbers
             lib.zd_open_lanes_discard(lanes, i)
         lib.zd_open_runs_read(self.c, i, 1)
+
+    def measure(self, number: int) -> np.ndarray:
+        """A measure at the present states: (runs, size)."""
+        self._systems = self._systems or ffi.new("const zd_system *[]", [each.measured.c for each in self._of])
+        measures, (_, nv, m) = self._systems[0].measures, self._runs[0].sizes
+        measure, scratch = measures.measure[number], ffi.new("double[]", measures.scratch + nv + m)
+        if measure.depends == lib.ZD_OF_ACCELERATIONS:
+            for i in range(len(self._runs)):
+                self[i]
+        values = np.empty((len(self._runs), measure.size))
+        status = lib.zd_open_runs_measure(self.c, self._systems, number, doubles(values, values.size, writable=True), scratch)
+        if status:
+            raise error_of(status, "a measure could not be evaluated")
+        return values
 
     def advance(self, part: int, steps: int, t: float) -> None:
         """Advance the runs of one part; the interpreter lock is released meanwhile."""

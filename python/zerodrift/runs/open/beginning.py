@@ -31,7 +31,6 @@ class Prepared(NamedTuple):
     settings: dict[str, Any]        # by name, as in `Solution.settings`
     core_settings: Any              # the same as a `zd_settings`
     core: _gateway.CoreSystem
-    measured: _gateway.CoreSystem | None    # the system that has the measures
     rows: int | None                # number of samples; None: not known in advance
     p0: np.ndarray
     v0: np.ndarray
@@ -41,8 +40,8 @@ class Prepared(NamedTuple):
     path: Any                       # of the file that samples are written to; None: memory
     declared: Declared | None       # inputs
     inputs: _gateway.Inputs | None
-    source: _gateway.CoreSystem             # core and measured before they became those of one run
-    source_measured: _gateway.CoreSystem | None
+    source: _gateway.CoreSystem     # core before it became that of one run
+    measured_of_inputs: _gateway.CoreSystem | None = None   # the system that has the measures, where there are inputs
 
     @property
     def outputs(self) -> _gateway.Outputs | None:
@@ -74,16 +73,21 @@ class Prepared(NamedTuple):
         """The system that is run, with inputs in the place of numbers."""
         return self.declared.of.system if self.declared else self.system
 
+    @property
+    def measured(self) -> _gateway.CoreSystem | None:
+        """The system that has the measures, which is made when the first is read."""
+        return self.measured_of_inputs or self.of._watching.core
+
     def with_own(self, values: np.ndarray | None = None) -> Prepared:
         """The same with the memory of one run: inputs, in `values` if given, and records of events and outputs."""
-        core, measured, inputs, recorded, watcher = self.source, self.source_measured, None, None, None
+        core, measured, inputs, recorded, watcher = self.source, None, None, None, None
         if self.declared:
-            inputs, (core, measured) = self.declared.bound(core, measured, values=values)
+            inputs, (core, measured) = self.declared.bound(core, self.of._watching.core, values=values)
         if (names := self.settings.get("outputs")) is not None:
-            recorded = _outputs.Recorded(names, self.of, core, measured if inputs else None)
+            recorded = _outputs.Recorded(names, self.of, core, measured)
         if self.events is not None:
-            watcher = _gateway.Watcher(core, self.events, measured, is_own=inputs is not None)
-        return self._replace(core=core, measured=measured, inputs=inputs, recorded=recorded, watcher=watcher)
+            watcher = _gateway.Watcher(core, self.events, measured or self.of._watching.core, is_own=inputs is not None)
+        return self._replace(core=core, measured_of_inputs=measured, inputs=inputs, recorded=recorded, watcher=watcher)
 
 
 def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: Any, outputs: Any, save_to: Any,
@@ -114,8 +118,8 @@ def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: A
         warnings.warn(told, CostWarning, stacklevel=stacklevel + 1)
     rows = None if is_open else plan.rows
     watched = _events.events(events, of)
-    ready = Prepared(system, span, plan.settings, plan.core_settings, core, of._watching.core, rows, p0, v0, watched, None, None,
-                     path, declared, None, core, of._watching.core)
+    ready = Prepared(system, span, plan.settings, plan.core_settings, core, rows, p0, v0, watched, None, None,
+                     path, declared, None, core)
     return ready.with_own()
 
 

@@ -96,7 +96,7 @@ class ManyRuns:
         self._places = ready.declared.places() if ready.declared else {}
         self._ready = _of_each(ready, count, _tables(parameters, count), _check_states(ready, p0, v0, count), self.inputs)
         self._parts, self._pool = _parts(count, 1 if ready.core.calls_python else processors()), None
-        self._core = _gateway.ManyOpenRuns([each.created(_gateway.OpenRun) for each in self._ready], self._parts)
+        self._core = _gateway.ManyOpenRuns([each.created(_gateway.OpenRun) for each in self._ready], self._ready, self._parts)
         self._readings: dict[int, Reading] = {}
 
     def __len__(self) -> int:
@@ -170,7 +170,11 @@ class ManyRuns:
         name = getattr(name, "name", name)
         if name in self._places:
             return self.inputs[:, self._places[name]].copy()
-        found = self.system._columns_of.get(name, ()) if self.system._watching.find(name) is None else ()
+        place = self._ready[0].of._watching.find(name)
+        if place:
+            values = self._core.measure(place.number)
+            return values[:, place.component or 0] if place.component is not None or values.shape[1] == 1 else values
+        found = () if place else self.system._columns_of.get(name, ())
         if len(found) == 1 and found[0][0] < 2:
             group, column = found[0]
             return (self._core.v if group else self._core.p)[:, column].copy()
@@ -180,7 +184,7 @@ class ManyRuns:
         run = self._core[i]         # which brings it to its present state
         if i not in self._readings:
             ready = self._ready[i]
-            self._readings[i] = Reading(ready.of, run, ready.measured)
+            self._readings[i] = Reading(ready.of, run, ready)
         return self._readings[i]
 
     def __setitem__(self, name: Any, values: Any) -> None:
@@ -234,7 +238,7 @@ class ManyRuns:
         if ready.inputs:
             ready.inputs.adopt(self.inputs[i])
         self._ready[i] = ready
-        self._core.replace(i, run)
+        self._core.replace(i, run, ready)
         self._readings.pop(i, None)
 
     def reset(self, p0: Any = None, v0: Any = None, *, where: Any = None) -> None:
@@ -331,4 +335,4 @@ def _with_parameters(ready: Prepared, parameters: dict[str, Any]) -> Prepared:
     if ready.source.has_lanes:
         core = of._core_in_lanes(ready.settings["vector"])
     p0, v0 = of._state_or_start(None, None, t=ready.span[0]) if system.p0 is not None else (ready.p0, ready.v0)
-    return ready._replace(system=system, source=core, source_measured=of._watching.core, declared=declared, p0=p0, v0=v0)
+    return ready._replace(system=system, source=core, declared=declared, p0=p0, v0=v0)

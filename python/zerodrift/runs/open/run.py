@@ -153,7 +153,7 @@ class Run(Stepping):
         self._core, self._c = core, core.c
         self.jump: Jump | None = None
         self._jumps = core.jumps
-        self._reading = Reading(self._ready.of, core, self._ready.measured)
+        self._reading = Reading(self._ready.of, core, self._ready)
 
     @classmethod
     def of(cls, ready: Prepared, controllers: Any) -> Run:

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from ... import _gateway
-from ..._gateway.measure_reader import MeasureReader
 from ...errors import WrongName
 from ...systems.base import BaseSystem
 from ...systems.measure_values import Place
@@ -22,14 +21,14 @@ class Reading:
     system : BaseSystem
     core : OpenRun
         The run.
-    measured : CoreSystem or None
-        The system whose measures are read.
+    of : Prepared
+        Its attribute `measured` is the system whose measures are read.
     """
 
-    def __init__(self, system: BaseSystem, core: _gateway.OpenRun, measured: Any) -> None:
-        self._system, self._core, self._measured = system, core, measured
+    def __init__(self, system: BaseSystem, core: _gateway.OpenRun, of: Any) -> None:
+        self._system, self._core, self._of = system, core, of
         self._known: dict[Any, Callable[[], Any]] = {}
-        self._reader: MeasureReader | None = None
+        self._measured: _gateway.CoreSystem | None = None
 
     def __call__(self, name: Any) -> Any:
         """Value of that name: a float, or an array of a vector."""
@@ -54,8 +53,9 @@ class Reading:
         system._refuse_name(name)
 
     def _measure(self, place: Place) -> Callable[[], Any]:
-        self._reader = self._reader or MeasureReader(self._core, self._measured, is_own=self._core.inputs is not None)
-        return self._reader.function(place.number, place.component)
+        if self._measured is None:
+            self._measured = self._of.measured if self._core.inputs is not None else self._of.measured.for_run()
+        return self._core.measure(self._measured, place.number, place.component)
 
     def _orientation(self, name: Any) -> Callable[[], Any] | None:
         """Orientation of a body in space, which is computed from its rotation as for a solution; None: there is none."""

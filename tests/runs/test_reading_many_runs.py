@@ -1,0 +1,54 @@
+"""Measures of many runs are read in one call of the core, and the system that has them is made when the first is read."""
+
+import sys
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+
+KINDS = ("position", "velocity", "acceleration")
+MODELS = {"plane": (zd.models.four_bar, "crank"), "space": (zd.models.delta_robot, "platform")}
+
+
+def python_calls(function):
+    calls = []
+    sys.setprofile(lambda frame, event, argument: calls.append(frame.f_code.co_name) if event == "call" else None)
+    try:
+        function()
+    finally:
+        sys.setprofile(None)
+    return len(calls)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("model", MODELS)
+def test_values_are_those_of_each_run(model, kind):
+    make, body = MODELS[model]
+    name, mechanism = f"{body}.{kind}", make()
+    runs = zd.ManyRuns(mechanism, runs=3, step=1e-3)
+    one = zd.Run(mechanism, step=1e-3)
+    for steps in (0, 7):
+        runs.step(steps), one.step(steps)
+        assert np.array_equal(runs[name], np.tile(one[name], (3, 1)))
+        assert np.array_equal(runs[f"{name}.x"], np.full(3, one[f"{name}.x"]))
+
+
+@pytest.mark.parametrize("kind", KINDS[:2])
+def test_calls_do_not_grow_with_the_runs(kind):
+    counts = []
+    for count in (2, 50):
+        runs = zd.ManyRuns(zd.models.four_bar(), runs=count, step=1e-3)
+        _ = runs[f"crank.{kind}"]
+        counts.append(python_calls(lambda runs=runs: runs[f"crank.{kind}"]))
+    assert counts[0] == counts[1]
+
+
+def test_runs_that_read_nothing_make_no_measures():
+    system = zd.models.four_bar().system()
+    zd.simulate(system, 0.01, step=1e-3)
+    run = zd.Run(system, step=1e-3)
+    run.step(1)
+    assert "_measuring" not in vars(system)
+    assert np.all(np.isfinite(run["crank.position"]))
+    assert "_measuring" in vars(system)
