@@ -20,12 +20,6 @@ double zd_sample_share(int k)
     return k <= ZD_SAMPLES / 2 ? share[k - 1] : 1 - share[ZD_SAMPLES - k];
 }
 
-void zd_zeros_add(zd_zeros *self, double t, double g)
-{
-    self->t[self->count] = t;
-    self->g[self->count++] = g;
-}
-
 void zd_zeros_keep_ends(zd_zeros *self)
 {
     const int last = self->count - 1;

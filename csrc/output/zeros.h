@@ -29,8 +29,6 @@ static inline int zd_passes_zero(double before, double now, int direction)
 
 /* Fraction of the step at which sample k is taken, k = 1 ... ZD_SAMPLES; 0 and 1 at the ends. */
 double zd_sample_share(int k);
-/* Adds a point after all others. */
-void zd_zeros_add(zd_zeros *self, double t, double g);
 /* Error of the predicted value at point k, by the corrected value. */
 void zd_zeros_compare(zd_zeros *self, int k, double g);
 /* True if the points show more sign changes than both ends, an extremum that may reach zero, or a value that may have the other sign. */

@@ -210,15 +210,6 @@ double zd_opened_energy_violation(zd_opened *self)
     return zd_run_energy_violation(self->run, &violation) ? NAN : violation;
 }
 
-int zd_opened_width(const zd_opened *self)
-{
-    const zd_measures *measures = zd_block_system(self->block)->measures;
-    const zd_outputs *outputs = self->settings.outputs;
-    int width = 0;
-    for (int i = 0; outputs && i < outputs->count; i++) width += measures->measure[outputs->measure[i]].size;
-    return width;
-}
-
 int zd_opened_outputs(zd_opened *self, double *value)
 {
     const zd_measures *measures = zd_block_system(self->block)->measures;

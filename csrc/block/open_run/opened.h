@@ -36,8 +36,7 @@ void zd_opened_poses(zd_opened *self, double *poses);
 double zd_opened_violation(zd_opened *self);
 /* J: error of the energy (28) at the present state; NaN where it is not defined. */
 double zd_opened_energy_violation(zd_opened *self);
-/* Number of components of all outputs, and their values in order. */
-int zd_opened_width(const zd_opened *self);
+/* Values of all outputs in order. */
 int zd_opened_outputs(zd_opened *self, double *value);
 
 /* ---- saved states, as those of a run: see zd_state_save() ---- */
