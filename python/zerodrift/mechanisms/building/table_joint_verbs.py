@@ -28,16 +28,19 @@ def verb(plane: type[Joint] | None, space: type[SpaceJoint] | None = None) -> Ca
     """Method of `Mechanism` for a kind of joint, from its classes in the plane and in space; None where it does not exist."""
     signature = _signature(plane, space)
     either: Any = plane or space
+    parameters = list(signature.parameters.values())[1:]
+    initial = {each.name: each.default for each in parameters if each.default is not each.empty}
+    places = [each.name for each in parameters if each.kind is not each.KEYWORD_ONLY]
 
     def make(m: Elements, *given: Any, **named: Any) -> Joint:
-        try:
-            bound = signature.bind(m, *given, **named)
-        except TypeError as error:
-            raise WrongType(f"{either.kind}(): {error}") from None
-        bound.apply_defaults()
-        values = dict(bound.arguments)
+        placed = dict(zip(places, given, strict=False))
+        values = initial | placed | named
+        if len(values) != len(parameters) or len(placed) != len(given) or placed.keys() & named:
+            try:
+                signature.bind(m, *given, **named)
+            except TypeError as error:
+                raise WrongType(f"{either.kind}(): {error}") from None
         _check_dimension(m, plane, space)
-        del values["self"]
         name = values.pop("name")
         if m.dimension == 2:
             return _add(m, plane, name, **_taken(m, name, values, plane_words(plane)))
