@@ -59,4 +59,4 @@ enum {
 
 /* ---- events and bifurcations ---- */
 
-#define ZD_TIME_RESOLUTION (4 * 0x1p-52)    /* final width of a bracket of times, relative to the times */
+#define ZD_TIME_RESOLUTION (4 * 0x1p-52)    /* rounding of times, and final width of a bracket of them, relative to the times */

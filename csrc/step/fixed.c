@@ -3,6 +3,10 @@
  */
 #include "step_loop.h"
 
+#include <math.h>
+
+#include "../step_limits.h"
+
 enum { MAX_PARTS = 8 };    /* largest number of parts of a step that fails */
 
 static int next_part(zd_step_loop *loop, zd_attempt *attempt, double t1)
@@ -22,11 +26,11 @@ static double time_of_step(const zd_step_loop *loop, double size)
 
 static int next(zd_step_loop *loop, zd_attempt *attempt)
 {
-    const zd_settings *settings = loop->settings;
-    const double t1 = time_of_step(loop, settings->step);
+    const double step = loop->settings->step, t1 = time_of_step(loop, step), size = t1 - loop->stepper->t;
+    const double rounding = ZD_TIME_RESOLUTION * fmax(fabs(loop->t_begin), fabs(t1));
     if (loop->parts) return next_part(loop, attempt, t1);
     attempt->t1 = t1;
-    attempt->h = loop->step == loop->steps ? t1 - loop->stepper->t : settings->step;
+    attempt->h = loop->step == loop->steps && fabs(size - step) > rounding ? size : step;
     attempt->forced = t1 == loop->end;
     return ZD_DONE;
 }

@@ -30,6 +30,15 @@ def test_a_shorter_last_step(system, integrator):
     assert_close(last.v[-1], sol.v[-1], tol.STEPPED)
 
 
+def test_the_last_step_of_a_whole_number_of_steps_has_their_size(system, integrator):
+    """0.1 - 4 * 0.02 is 0.020000000000000004, by the rounding of times: a longer run has the same bits there."""
+    assert 0.1 - 4 * 0.02 != 0.02
+    whole, longer = (zd.simulate(system, end, step=0.02, integrator=integrator) for end in (0.1, 0.12))
+    assert whole.t[-1] == longer.t[5]
+    assert np.array_equal(whole.p[-1], longer.p[5])
+    assert np.array_equal(whole.v[-1], longer.v[5])
+
+
 @pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")
 @pytest.mark.parametrize(("end", "step", "steps"), [(1.0, 0.1, 10), (0.3, 0.1, 3), (8.0, 0.05, 160), (1.0, 1 / 3, 3),
                                                     (1.0, 2.0, 1), (1.0, 0.0999999, 11), (1.0, 0.15, 7)])

@@ -34,7 +34,8 @@ ZD_KERNEL zd_real ZD_NAMED(end_of_step)(const zd_lanes *self, zd_real *h)
         const zd_real number = *REAL(self->number) + 1.0;
         const zd_condition is_last = number == self->steps;
         const zd_real t1 = ZD_WHERE(is_last, end, self->t0 + number * self->step);
-        *h = ZD_WHERE(is_last, end - t, ZD_SPLAT(self->step));
+        const double rounding = ZD_TIME_RESOLUTION * fmax(fabs(self->t0), fabs(self->end));
+        *h = ZD_WHERE(is_last & (ZD_NAMED(size_of)(end - t - self->step) > rounding), end - t, ZD_SPLAT(self->step));
         return t1;
     }
     zd_real size = *REAL(self->h);
