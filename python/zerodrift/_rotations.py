@@ -56,6 +56,11 @@ def turn(vector: np.ndarray) -> np.ndarray:
     return np.concatenate([np.cos(angle / 2), np.sinc(angle / (2 * np.pi)) / 2 * vector], axis=-1)
 
 
+def is_order(axes: str) -> bool:
+    """True for the axes of intrinsic angles, such as "zyx": three, no two neighbours alike."""
+    return len(axes) == 3 and set(axes) <= set(AXES) and axes[0] != axes[1] != axes[2]
+
+
 def angles_of(R: np.ndarray, order: str) -> np.ndarray:
     """Intrinsic angles (k, 3) in rad of rotations (k, 3, 3): turns about the body's own axes in this order, such as "zyx".
 

@@ -263,6 +263,48 @@ def test_angles_are_those_of_scipy(order):
     assert (np.abs(np.diff(sol["top.quaternion"], axis=0)).max() < 0.5)
 
 
+READERS = {
+    "solution": lambda m, name: zd.simulate(m, 0.6, step=0.1)[name][-1],
+    "recorded": lambda m, name: zd.simulate(m, 0.6, step=0.1, outputs=[name])[name][-1],
+    "at": lambda m, name: zd.simulate(m, 1.0, step=0.1).at(0.6)[name],
+    "run": lambda m, name: advanced(zd.Run(m, step=0.1))[name],
+    "runs": lambda m, name: advanced(zd.ManyRuns(m, step=0.1, runs=2))[name][1],
+    "instant": lambda m, name: zd.Instant(m, 0.6, *(sol.p[-1] for sol in [zd.simulate(m, 0.6, step=0.1)]))[name],
+    "kinematics": lambda m, name: zd.kinematics(m, {"pin.angle": lambda t: 2.0 * t}, np.array([0.0, 0.6]))[name][-1]}
+
+
+def advanced(run):
+    run.advance_to(0.6)
+    return run
+
+
+@pytest.mark.parametrize("reader", READERS)
+@pytest.mark.parametrize(("quantity", "expected"), [
+    ("rotation", lambda turned: turned.as_matrix()), ("quaternion", lambda turned: turned.as_quat(scalar_first=True)),
+    ("euler.zyx", lambda turned: turned.as_euler("ZYX"))])
+def test_orientations_have_one_shape_wherever_they_are_read(reader, quantity, expected):
+    """A wheel that turns at 2 rad/s about a tilted axis: its orientation after 0.6 s is SciPy's."""
+    m = zd.Mechanism("wheel", dimension=3)
+    wheel = m.body("wheel", 1.0, (1.0, 1.0, 1.0))
+    m.revolute("pin", m.ground, wheel, at=(0, 0, 0), axis=TILTED[:, 2])
+    m.start({"pin.speed": 2.0})
+    found, known = READERS[reader](m, f"wheel.{quantity}"), expected(Rotation.from_rotvec(1.2 * TILTED[:, 2]))
+    assert np.shape(found) == known.shape
+    assert_close(found, known, 1e-9, scale=1.0)
+
+
+def test_orientations_at_rest_and_in_ensembles():
+    m = zd.Mechanism("hung", dimension=3, gravity=(0, 0, -9.81))
+    hung = m.body("hung", 1.0, (1.0, 1.0, 1.0), rotation=TILTED)
+    m.bushing("soft", m.ground.point((0, 0, 0)), hung.point((0, 0, 0)), stiffness=1.0, torsion=1.0)
+    at_rest = zd.equilibrium(m)
+    assert_close(at_rest["hung.rotation"], TILTED, 1e-9, scale=1.0)
+    assert_close(at_rest["hung.quaternion"], Rotation.from_matrix(TILTED).as_quat(scalar_first=True), 1e-9, scale=1.0)
+    for given in ({"parameters": {"hung.mass": [1.0, 2.0]}}, {"v0": np.zeros((2, 6))}):
+        found = zd.ensemble(m, 0.2, step=0.1, outputs=["hung.rotation"], **given)["hung.rotation"]
+        assert_close(found, np.broadcast_to(TILTED, (2, 3, 3, 3)), 1e-9, scale=1.0)
+
+
 def test_a_system_keeps_its_names():
     system = heavy_top().system("absolute")
     again = pickle.loads(pickle.dumps(system))

@@ -58,7 +58,7 @@ FORCES = ("force", "torque", "tension", "power")
 def read(system: BaseSystem, name: Any, t: np.ndarray, states: tuple[np.ndarray, ...],
          acting: Any = ((), None)) -> np.ndarray:
     """A quantity at samples: t (k,), p, v, vdot, multipliers; NaN where these are. acting: efforts (k, j) along quantities."""
-    place, watching = system._watching.find(name), system._watching
+    place, watching = system._watching.view(name), system._watching
     if place is not None:
         depends = watching.core.measure_depends(place.number)
         used = {"positions": states[:1], "velocities": states[:2]}.get(depends, states)

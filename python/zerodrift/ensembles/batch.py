@@ -207,6 +207,7 @@ def _part(plan: Plan, batch: Batch, made: _gateway.BatchResults, messages: list[
     ended = (status == _gateway.DONE) | (status == _gateway.EVENT)
     paths = np.where(made.way[:count] == _gateway.IN_LANES, IN_LANES, BY_CORE).astype(np.uint8)
     arrays = {name: _rows(made.columns[group][:count, :, column], kept) for name, (group, column) in batch.columns.items()}
+    arrays |= {name: place.pick(arrays[name]) for name in arrays if (place := batch.system._watching.find(name)) and place.form}
     return Part(rows, t, arrays, ~ended, messages[:count], paths, doubtful, none, t_events, none)
 
 

@@ -28,7 +28,7 @@ from .elements.forces import driven, inputs_of
 from .elements.numbers import Numbers, checked, is_right
 from .elements.space_bodies import SpaceInertias
 from .equations.generated_code import Written, measure_program
-from .equations.measure_tables import measuring, orientation
+from .equations.measure_tables import measuring
 from .equations.space_tables import SpaceTables, tables_of
 from .equations.tables import Tables, constraint_names
 from .files.to_json import described
@@ -344,11 +344,6 @@ class MechanismSystem(Reported):
             return space_sketches(self._drawing, self._numbers, poses)
         moments, others = ((self._first_core.poses(np.ascontiguousarray(p))[0] for p in those) for those in (positions, motion))
         return sketches(self._drawing, self._numbers, moments, others)
-
-    def _measured(self, name: Any, solution: Any) -> np.ndarray | None:
-        """As of any system; also orientations of bodies in space, as matrices, quaternions and angles."""
-        found = orientation(self._watching, getattr(name, "name", name), solution) if self._drawing.dimension == 3 else None
-        return super()._measured(name, solution) if found is None else found
 
     def _forces(self, names: Any, solution: Any, rows: np.ndarray) -> list[tuple[str, np.ndarray, np.ndarray]]:
         elements, drawing, numbers = chosen(self._drawing, names), self._drawing, self._numbers

@@ -241,10 +241,6 @@ class BaseSystem(Defaults):
                 found.setdefault(variable.name, []).append((group, column))
         return found
 
-    def _measured(self, name: Any, solution: Any) -> np.ndarray | None:
-        """Values of a measure at all samples of a solution; None if there is no measure of that name."""
-        return self._watching.values(getattr(name, "name", name), solution)
-
     def _reading(self, name: str, what: str, *, is_dynamic: bool = False) -> Reading:
         """Index of a scalar measure, of reactions and accelerations only if `is_dynamic`, or of a coordinate or velocity."""
         place, core = self._watching.find(name), self._measuring

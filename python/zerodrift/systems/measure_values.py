@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import weakref
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .. import _check, _gateway
 from .._gateway import Acting, CoreSystem
+from .._rotations import angles_of, is_order, quaternions_of
 from ..errors import WrongName, WrongValue
 
 AXES = {"x": 0, "y": 1, "z": 2}     # names of components
@@ -18,16 +20,47 @@ PART = 2**28            # bytes of positions that a measure is evaluated at toge
 
 
 class Place(NamedTuple):
-    """Index of a measure and of one of its components; None: all components."""
+    """Index of a measure, and of one of its components, None: all; `form`: function of a rotation (k, 3, 3)."""
 
     number: int
     component: int | None
+    form: Callable[[np.ndarray], np.ndarray] | None = None
+
+    @property
+    def is_linear(self) -> bool:
+        """True if what is read is linear in the measure, so that each sample is read for itself."""
+        return self.form in (None, np.asarray)
 
     def pick(self, values: np.ndarray) -> np.ndarray:
-        """Selected part of values (k, size): (k,) for a scalar or a component, (k, size) for a vector."""
+        """Selected part of values (k, size): (k,) of a scalar or a component, (k, 3, 3) of a rotation, (k, size) of a vector."""
         if self.component is not None:
             return values[:, self.component]
+        if self.form:
+            return self.form(values.reshape(-1, 3, 3))
         return values[:, 0] if values.shape[1] == 1 else values
+
+
+def find(name: Any, sizes: Mapping[str, int]) -> Place | None:
+    """A measure or a component of one by its name, among measures with these sizes; None: there is none."""
+    if not isinstance(name, str):
+        return None
+    base, _, axis = name.rpartition(".")
+    whole, component = (name, None) if name in sizes else (base, AXES.get(axis, -1))
+    if whole not in sizes or (component is not None and not 0 <= component < sizes[whole] in (2, 3)):
+        return None
+    return Place(list(sizes).index(whole), component, np.asarray if axis == "rotation" and component is None else None)
+
+
+def view(name: Any, sizes: Mapping[str, int]) -> Place | None:
+    """As `find`; also "body.quaternion" and "body.euler.zyx", which are functions of "body.rotation"."""
+    if (found := find(name, sizes)) or not isinstance(name, str):
+        return found
+    body, _, quantity = name.partition(".")
+    word, _, order = quantity.partition(".")
+    angles = partial(angles_of, order=order) if word == "euler" and is_order(order) else None
+    form = quaternions_of if quantity == "quaternion" else angles
+    rotation = form and find(f"{body}.rotation", sizes)
+    return rotation and rotation._replace(form=form)
 
 
 class Watching:
@@ -35,20 +68,17 @@ class Watching:
 
     def __init__(self, core: CoreSystem | None) -> None:
         self.core, self._measures = core, core.measures if core else ()
-        self.number = {measure.name: i for i, measure in enumerate(self._measures)}
+        self.sizes = {measure.name: measure.size for measure in self._measures}
+        self.number = {name: i for i, name in enumerate(self.sizes)}
         self._accelerations: weakref.WeakKeyDictionary[Any, tuple[np.ndarray, np.ndarray]] = weakref.WeakKeyDictionary()
 
     def find(self, name: Any) -> Place | None:
         """Index of a measure or of a component by its name, or None."""
-        if not isinstance(name, str):
-            return None
-        if name in self.number:
-            return Place(self.number[name], None)
-        base, _, axis = name.rpartition(".")
-        component = AXES.get(axis, -1)
-        if base in self.number and 0 <= component < self._measures[self.number[base]].size in (2, 3):
-            return Place(self.number[base], component)
-        return None
+        return find(name, self.sizes)
+
+    def view(self, name: Any) -> Place | None:
+        """Index of what is read by a name: of a measure, a component, or an orientation; or None."""
+        return view(name, self.sizes)
 
     def unit(self, name: str) -> str | None:
         """Unit of a measure or of a component by its name, or None."""
@@ -68,8 +98,8 @@ class Watching:
         return Watching, (self.core,)       # what is known of solutions is found again
 
     def values(self, name: str, solution: Any) -> np.ndarray | None:
-        """A measure at all rows: (k,) of a scalar or a component, (k, 2) of a vector; None: there is none of that name."""
-        found = self.find(name)
+        """A measure at all rows, as `Place.pick` shapes it; None: there is none of that name."""
+        found = self.view(name)
         if found is None:
             return None
         return found.pick(self._evaluate(found.number, solution))
@@ -137,7 +167,7 @@ class Watching:
         found = self.find(name)
         if found is None:
             raise WrongName(f"nothing measured is called {name!r}; {_check.closest(name, self.number)}", "wrong-name")
-        number, component = found
+        number, component, _ = found
         same = np.ones(self._measures[number].size, dtype=bool)
         if self.core.measure_depends(number) == "accelerations" and self.core.m:
             changes = self._evaluate(number, solution, "redundant")

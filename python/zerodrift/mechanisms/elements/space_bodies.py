@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ... import _check
-from ..._rotations import AXES
+from ..._rotations import AXES, is_order
 from ...errors import WrongAttribute, WrongValue
 from .bodies import Body, Ground, Link, MassProperties, Particle, Point, _End
 from .drawing import Drawing, inertias_of_bodies
@@ -66,7 +66,7 @@ class RotationMeasure(Measure):
 
     def euler(self, order: str) -> Measure:
         """Orientation as angles (k, 3) in rad, by rotations about the body's own axes in this order, such as "zyx" or "zxz"."""
-        if len(order) != 3 or set(order) - set(AXES) or order[0] == order[1] or order[1] == order[2]:
+        if not is_order(order):
             raise WrongValue(f"order must name three axes, such as 'zyx' or 'zxz', no two neighbours alike, not {order!r}",
                              "unknown-choice")
         return Measure(f"{self.name.removesuffix('.rotation')}.euler.{order}")

@@ -7,17 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
 from functools import partial
-from typing import Any, NamedTuple
-
-import numpy as np
+from typing import NamedTuple
 
 from ... import _check
 from ..._gateway.mechanisms.core import MechanismCore
 from ..._gateway.mechanisms.element_tables import OutputSpec
 from ..._gateway.mechanisms.plane import Quantity
-from ..._rotations import angles_of, quaternions_of
 from ...errors import WrongValue
-from ...systems.measure_values import Watching
 from ..elements.bodies import Body, Link, Point
 from ..elements.forces import Actuator
 from ..elements.joints import holds_angle, is_hinge
@@ -151,22 +147,3 @@ def _of_joints(tables: Tables) -> Iterator[OutputSpec]:
             yield OutputSpec(f"{joint.name}.torque", "N m", "joint torque", i)
         if joint.row.tension:
             yield OutputSpec(f"{joint.name}.{joint.row.tension}", "N", "joint tension", i)
-
-
-def orientation(watching: Watching, name: Any, solution: Any) -> np.ndarray | None:
-    """Values of "body.rotation" (k, 3, 3), "body.quaternion" (k, 4) or "body.euler.zyx" (k, 3); None for other names."""
-    if not isinstance(name, str):
-        return None
-    body, _, quantity = name.partition(".")
-    word, _, order = quantity.partition(".")
-    if word not in ("rotation", "quaternion", "euler") or (word != "euler") == bool(order):
-        return None
-    cosines = watching.values(f"{body}.rotation", solution)
-    if cosines is None or (word == "euler" and not _is_order(order)):
-        return None
-    R = cosines.reshape(-1, 3, 3)
-    return R if word == "rotation" else quaternions_of(R) if word == "quaternion" else angles_of(R, order)
-
-
-def _is_order(order: str) -> bool:
-    return len(order) == 3 and set(order) <= set("xyz") and order[0] != order[1] != order[2]

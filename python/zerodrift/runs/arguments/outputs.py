@@ -17,7 +17,7 @@ class Recorded:
 
     def __init__(self, names: tuple[str, ...], system: BaseSystem, core: _gateway.CoreSystem, measured: Any = None) -> None:
         watching = system._watching
-        places = [place for name in names if (place := watching.find(name)) is not None]
+        places = [place for name in names if (place := watching.view(name)) is not None]
         numbers = list(dict.fromkeys(place.number for place in places))     # without duplicates
         self.names = [list(watching.number)[number] for number in numbers]
         self.core = _gateway.Outputs(numbers, measured or watching.core, core, is_own=measured is not None) if numbers else None
@@ -40,7 +40,7 @@ def _name(what: str, given: Any, system: BaseSystem) -> str:
     name = getattr(given, "name", given)
     if not isinstance(name, str):
         raise WrongType(f"{what} must be a measure or the name of one, not {_check.shown(given)}")
-    if system._watching.find(name) is None and name not in system._columns_of:
+    if system._watching.view(name) is None and name not in system._columns_of:
         raise WrongValue(f"{what} must name a measure or a variable of {system.name}, not {name!r}; "
                          f"{_check.closest(name, system._names_of_quantities())}", "wrong-name")
     return name

@@ -170,11 +170,11 @@ class ManyRuns:
         name = getattr(name, "name", name)
         if name in self._places:
             return self.inputs[:, self._places[name]].copy()
-        place = self._ready[0].of._watching.find(name)
+        place = self._ready[0].of._watching.view(name)
         if place:
             values = self._core.measure(place.number)
-            return values[:, place.component or 0] if place.component is not None or values.shape[1] == 1 else values
-        found = () if place else self.system._columns_of.get(name, ())
+            return place.pick(values) if place.is_linear else np.concatenate([place.pick(each) for each in values[:, None]])
+        found = self.system._columns_of.get(name, ())
         if len(found) == 1 and found[0][0] < 2:
             group, column = found[0]
             return (self._core.v if group else self._core.p)[:, column].copy()

@@ -61,7 +61,7 @@ class Present:
 
         Returns
         -------
-        float, or ndarray (2,) or (3,) of a measure that is a vector, or of the shape of an input that is an array
+        float, or ndarray (2,) or (3,) of a vector, (3, 3) of a rotation, or of the shape of an input that is an array
 
         Raises
         ------

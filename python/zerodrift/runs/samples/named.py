@@ -8,7 +8,7 @@ import numpy as np
 
 from ... import _gateway
 from ...errors import WrongName
-from ...systems.measure_values import AXES
+from ...systems.measure_values import AXES, view
 
 
 class Stats(dict):
@@ -50,9 +50,10 @@ class Named:
         """
         if isinstance(name, tuple) and len(name) == 2:
             return self._in_axes_of(*name)
-        measured = self._recorded(getattr(name, "name", name))
+        name = getattr(name, "name", name)
+        measured = self._recorded(name)
         if measured is None:
-            measured = self.system._measured(name, self)
+            measured = self.system._watching.values(name, self)
         if measured is not None:
             return measured
         groups = [array for array, _ in self._named()]
@@ -63,7 +64,7 @@ class Named:
         if columns:
             raise WrongName(f"a name must be unique in {self.system.name}, but {name!r} names {len(columns)} variables: "
                            "take the column of p, v or multipliers", "duplicate-name")
-        self.system._refuse_name(getattr(name, "name", name))
+        self.system._refuse_name(name)
 
     def _check_sign(self, name: str) -> None:
         """Raise KeyError for the multiplier of a drive or coupling by the element's name: its force has the opposite sign."""
@@ -101,13 +102,11 @@ class Named:
 
     def _recorded(self, name: Any) -> np.ndarray | None:
         """A recorded measure or a component of one; None if it was not recorded."""
-        if not self.outputs or not isinstance(name, str):
+        place = view(name, {known: values.size // len(values) for known, values in self.outputs.items()})
+        if place is None:
             return None
-        if name in self.outputs:
-            return self.outputs[name].reshape(-1, 3, 3) if name.endswith(".rotation") else self.outputs[name]
-        base, _, axis = name.rpartition(".")
-        vector, component = self.outputs.get(base), AXES.get(axis, -1)
-        return vector[:, component] if vector is not None and vector.ndim == 2 and 0 <= component < vector.shape[1] else None
+        values = list(self.outputs.values())[place.number]
+        return place.pick(values) if values.ndim > 1 < values.shape[1] else values
 
     def unique(self, name: str, body: Any = None) -> Any:
         """Return whether a measure of a mechanism is determined uniquely, although constraints are redundant.

@@ -32,7 +32,7 @@ class Reading:
 
     def __getitem__(self, given: Any) -> Any:
         name, of = getattr(given, "name", given), self.system
-        if (place := of._watching.find(name)) is not None:
+        if (place := of._watching.view(name)) is not None:
             states = self._state_for(place.number)
             value = place.pick(of._watching.core.measure(place.number, *states, is_least=True, acting=self._acting))[0]
             return float(value) if np.ndim(value) == 0 else value

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
 from ... import _gateway
 from ...errors import WrongName
 from ...systems.base import BaseSystem
@@ -39,10 +37,8 @@ class Reading:
 
     def _found(self, name: Any) -> Callable[[], Any]:
         system = self._system
-        if (place := system._watching.find(name)) is not None:
+        if (place := system._watching.view(name)) is not None:
             return self._measure(place)
-        if (orientation := self._orientation(name)) is not None:
-            return orientation
         found = system._columns_of.get(name, ()) if isinstance(name, str) else ()
         if len(found) == 1:
             (group, column), core = found[0], self._core
@@ -55,24 +51,5 @@ class Reading:
     def _measure(self, place: Place) -> Callable[[], Any]:
         if self._measured is None:
             self._measured = self._of.measured if self._core.inputs is not None else self._of.measured.for_run()
-        return self._core.measure(self._measured, place.number, place.component)
-
-    def _orientation(self, name: Any) -> Callable[[], Any] | None:
-        """Orientation of a body in space, which is computed from its rotation as for a solution; None: there is none."""
-        try:
-            known = self._system._measured(name, OneSample(self._core))
-        except (KeyError, AttributeError):
-            return None
-        return None if known is None else lambda: _single(self._system._measured(name, OneSample(self._core))[0])
-
-
-def _single(value: Any) -> Any:
-    return float(value) if np.ndim(value) == 0 else value
-
-
-class OneSample:
-    """The present state as the only sample of a solution."""
-
-    def __init__(self, core: _gateway.OpenRun) -> None:
-        self.t, self.p, self.v = np.array([core.t]), core.p[None], core.v[None]
-        self.multipliers = np.empty((1, core.sizes[2]))
+        read = self._core.measure(self._measured, place.number, place.component)
+        return read if place.form is None else lambda: place.pick(read()[None])[0]
