@@ -362,3 +362,10 @@ def test_a_value_between_steps_does_without_them_too():
 def test_perturbed_systems_have_none():
     core = _gateway.perturbed(system("four_bar")._closed_form_core(), 1e-8, 1)
     assert core.c.closed_forms == 0
+
+
+@pytest.mark.parametrize(("model", "why"), [("four_bar", True), ("planetary_gear", False), ("chain", False)])
+def test_interpreted_tables_are_named(model, why):
+    """A mechanism says that code may be generated for it, where that is known to pay."""
+    reason = zd.simulate(getattr(zd.models, model)(), 1e-3, step=1e-3).stats["matrix_path_reason"]
+    assert ("compiled=True" in (reason or "")) is why
