@@ -52,3 +52,24 @@ def test_runs_that_read_nothing_make_no_measures():
     assert "_measuring" not in vars(system)
     assert np.all(np.isfinite(run["crank.position"]))
     assert "_measuring" in vars(system)
+
+
+@pytest.mark.parametrize(("quantity", "value"), [("torque", 3.0), ("speed", 2.0)])
+def test_a_reset_run_is_a_new_one(quantity, value):
+    """A reset takes the memory of the run for its inputs, and leaves them as they were where the start is refused."""
+    m = zd.Mechanism("arm")
+    arm = m.link("arm", (0, 0), (1, 0), mass=3.0)
+    m.motor("drive", m.revolute("pin", m.ground, arm.start), **{quantity: 1.0})
+    name, settings = f"drive.{quantity}", {"step": 0.01, "runs": 2, "inputs": [f"drive.{quantity}"]}
+    runs, new = zd.ManyRuns(m, **settings), zd.ManyRuns(m, **settings)
+    runs[name] = value
+    runs.step(9)
+    with pytest.raises(zd.ZerodriftError):
+        runs.reset(np.full(runs.p.shape[1], np.nan), where=np.array([True, False]))
+    assert np.all(runs[name] == value)
+    runs.step(2)
+    runs.reset(where=np.array([True, False]))
+    assert list(runs[name]) == [1.0, value]
+    runs.step(7), new.step(7)
+    assert np.array_equal(runs.p[0], new.p[0])
+    assert np.array_equal(runs["pin.speed"][0], new["pin.speed"][0])

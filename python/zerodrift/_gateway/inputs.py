@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import contextlib
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -62,7 +63,7 @@ class Inputs:
                  bound: Iterable[Bound], values: np.ndarray | None = None, follows: Following | None = None) -> None:
         self.names, self.lower, self.upper = tuple(names), lower, upper
         self.values = initial.copy() if values is None else values
-        self._bound = tuple(bound)
+        self._bound, self._initial = tuple(bound), initial
         places = [place for each in self._bound for place in each.places]
         derivations = [each for bound in self._bound for each in bound.derivations]
         rows = ffi.new("zd_input_slot[]", [(self.names.index(each.name), each.is_speed, each.address) for each in places])
@@ -97,6 +98,17 @@ class Inputs:
         numbers = dict(zip(self.names, values.tolist(), strict=True))
         at_places = [[numbers[place.name]] + [0.0, 0.0] * place.is_speed for place in self._memory[-1]]
         self.restore(values, np.array([number for each in at_places for number in each]))
+
+    @contextlib.contextmanager
+    def initially(self) -> Iterator[None]:
+        """Initial values, and the present ones again after an error."""
+        before = self.values.copy(), self.at_places
+        self.set_constant(self._initial)
+        try:
+            yield
+        except BaseException:
+            self.restore(*before)
+            raise
 
     def adopt(self, memory: np.ndarray) -> None:
         """Move the values to other memory (k,), which is read from now on."""

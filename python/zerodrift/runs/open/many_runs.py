@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import math
 from concurrent.futures import ThreadPoolExecutor
@@ -254,9 +255,12 @@ class ManyRuns:
         places = np.flatnonzero(_mask(where, len(self)))
         states = _check_states(self._ready[0], p0, v0, len(places))
         for i, (p, v) in zip(places.tolist(), states, strict=True):
-            ready = self._renewed(i)
+            ready = self._ready[i]
             start = ready._replace(p0=ready.p0 if p is None else p, v0=ready.v0 if v is None else v)
-            self._become(i, ready, start.created(_gateway.OpenRun))
+            with ready.inputs.initially() if ready.inputs else contextlib.nullcontext():
+                run = start.created(_gateway.OpenRun)
+            self._core.replace(i, run, ready)
+            self._readings.pop(i, None)
 
 
 def _parts(count: int, threads: int) -> list[tuple[int, int]]:
