@@ -43,7 +43,7 @@ from .reports import cost
 from .reports.in_words import Reported
 
 LAYOUTS = ("joint", "absolute")
-SMALL = 30      # velocities and constraints up to which generated code is known to pay
+SMALL_SIZE = 30      # velocities and constraints up to which generated code is known to pay
 INTERPRETED = "tables are interpreted; m.system(compiled=True) is mostly several times as fast"
 
 
@@ -226,8 +226,8 @@ class MechanismSystem(Reported):
     def _why_no_closed_form(self, embeds: bool = False) -> str | None:
         if not self._is_written_out:
             is_portable = self._has_plain_laws and not self._drawing.reactions()
-            gains = is_portable and (self.layout == "joint" or self._drawing.dimension == 2) and max(self.nv, self.m) <= SMALL
-            return INTERPRETED if gains else None
+            is_served = self.layout == "joint" or self._drawing.dimension == 2
+            return INTERPRETED if is_served and is_portable and max(self.nv, self.m) <= SMALL_SIZE else None
         functions = self._closed_form[1]
         return (functions.embedding if embeds else functions).why_none if self.compiled else NO_COMPILER
 
