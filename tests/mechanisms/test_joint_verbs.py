@@ -88,6 +88,7 @@ def test_each_refusal_names_what_is_wrong():
     slide, hinge, rod, weld = (verb(made(kind)) for kind in ("prismatic", "revolute", "rod", "weld"))
     for call, error, text in (
             (lambda: slide(m, "J", first, second), TypeError, r"prismatic\(\): missing a required .*argument: 'axis'"),
+            (lambda: hinge(m, "J", first, secnd=second), TypeError, r"revolute\(\): missing a required .*argument: 'second'"),
             (lambda: slide(m, "J", first, second, axis=(0, 0)), ValueError, "axis of 'J' must be a direction"),
             (lambda: slide(m, "J", bob, second, axis=(1, 0)), ValueError, "prismatic 'J' needs an orientation, and 'bob'"),
             (lambda: weld(m, "J", bob, second), ValueError, "weld 'J' needs an orientation, and 'bob'"),

@@ -30,12 +30,12 @@ def verb(plane: type[Joint] | None, space: type[SpaceJoint] | None = None) -> Ca
     either: Any = plane or space
     parameters = list(signature.parameters.values())[1:]
     initial = {each.name: each.default for each in parameters if each.default is not each.empty}
-    places = [each.name for each in parameters if each.kind is not each.KEYWORD_ONLY]
+    names, places = {each.name for each in parameters}, [each.name for each in parameters if each.kind is not each.KEYWORD_ONLY]
 
     def make(m: Elements, *given: Any, **named: Any) -> Joint:
-        placed = dict(zip(places, given, strict=False))
-        values = initial | placed | named
-        if len(values) != len(parameters) or len(placed) != len(given) or placed.keys() & named:
+        chosen = dict(zip(places, given, strict=False)) | named
+        values = initial | chosen
+        if set(values) != names or len(chosen) != len(given) + len(named):
             try:
                 signature.bind(m, *given, **named)
             except TypeError as error:
