@@ -34,6 +34,36 @@ def test_values_are_those_of_each_run(model, kind):
         assert np.array_equal(runs[f"{name}.x"], np.full(3, one[f"{name}.x"]))
 
 
+def driven_by(law):
+    m = zd.Mechanism("arm")
+    arm = m.link("arm", (0, 0), (1, 0), mass=3.0)
+    m.motor("drive", m.revolute("pin", m.ground, arm.start), torque=law)
+    return m
+
+
+def test_measures_that_need_functions_written_in_python_are_those_of_each_run():
+    runs = zd.ManyRuns(driven_by(lambda t: 2.0 + t), runs=3, step=1e-3)
+    for each, mask in enumerate(np.eye(3, dtype=bool)):
+        runs.step(each)
+        power = runs["pin.speed"] * (2.0 + runs.t)
+        np.testing.assert_allclose(runs["drive.power"], power, rtol=1e-14)
+        runs.reset(where=mask)
+
+
+def test_an_exception_of_such_a_function_is_raised():
+    def law(t):
+        if asked:
+            raise OverflowError("too late")
+        return 2.0
+
+    asked = []
+    runs = zd.ManyRuns(driven_by(law), runs=2, step=1e-3)
+    runs.step(1)
+    asked.append(1)
+    with pytest.raises(OverflowError, match="too late"):
+        _ = runs["drive.power"]
+
+
 @pytest.mark.parametrize("kind", KINDS[:2])
 def test_calls_do_not_grow_with_the_runs(kind):
     counts = []

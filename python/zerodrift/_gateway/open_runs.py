@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .._core import ffi, lib
-from .base import doubles, error_of
+from .base import doubles
 from .runs import Run
 from .systems import CoreSystem
 
@@ -146,7 +146,7 @@ class ManyOpenRuns:
         self.status, self.t = np.zeros(count, dtype=np.intc), np.empty(count)
         self.p, self.v = np.empty((count, nq)), np.empty((count, nv))
         self._pointers = ffi.new("zd_run *[]", [run.c for run in runs])
-        self._of, self._systems = list(of), None
+        self._of, self._measured = list(of), []
         self.c = ffi.new("zd_open_runs *", {
             "runs": count, "run": self._pointers, "status": ffi.from_buffer("int[]", self.status, require_writable=True),
             "t": doubles(self.t, count, writable=True), "p": doubles(self.p, self.p.size, writable=True),
@@ -174,17 +174,20 @@ class ManyOpenRuns:
     def replace(self, i: int, run: OpenRun, of: Any) -> None:
         """Replace one of the runs, and store its present state."""
         self._of[i] = of
-        if self._systems:
-            self._systems[i] = of.measured.c
+        if self._measured:
+            self._measured[i] = of.measured
+            self._systems[i] = self._measured[i].c
         self._runs[i], self._pointers[i], self.status[i] = run, run.c, 0
         if lanes := self._lanes_of(i):
             self._numbers[i] = run.lane_numbers
             lib.zd_open_lanes_discard(lanes, i)
         lib.zd_open_runs_read(self.c, i, 1)
 
-    def measure(self, number: int) -> np.ndarray:
-        """A measure at the present states: (runs, size)."""
-        self._systems = self._systems or ffi.new("const zd_system *[]", [each.measured.c for each in self._of])
+    def measure(self, number: int) -> np.ndarray | None:
+        """A measure at the present states: (runs, size). None: one run cannot evaluate it, which says why where it is read alone."""
+        if not self._measured:
+            self._measured = [each.measured for each in self._of]
+            self._systems = ffi.new("const zd_system *[]", [each.c for each in self._measured])
         measures, (_, nv, m) = self._systems[0].measures, self._runs[0].sizes
         measure, scratch = measures.measure[number], ffi.new("double[]", measures.scratch + nv + m)
         if measure.depends == lib.ZD_OF_ACCELERATIONS:
@@ -192,9 +195,7 @@ class ManyOpenRuns:
                 self[i]
         values = np.empty((len(self._runs), measure.size))
         status = lib.zd_open_runs_measure(self.c, self._systems, number, doubles(values, values.size, writable=True), scratch)
-        if status:
-            raise error_of(status, "a measure could not be evaluated")
-        return values
+        return None if status else values
 
     def advance(self, part: int, steps: int, t: float) -> None:
         """Advance the runs of one part; the interpreter lock is released meanwhile."""

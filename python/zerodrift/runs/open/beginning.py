@@ -75,8 +75,8 @@ class Prepared(NamedTuple):
 
     @property
     def measured(self) -> _gateway.CoreSystem | None:
-        """The system that has the measures, which is made when the first is read."""
-        return self.measured_of_inputs or self.of._watching.core
+        """The system that has the measures, with memory of one run, which is made when the first is read."""
+        return self.measured_of_inputs or self.of._watching.core.for_run()
 
     def with_own(self, values: np.ndarray | None = None) -> Prepared:
         """The same with the memory of one run: inputs, in `values` if given, and records of events and outputs."""

@@ -172,8 +172,7 @@ class ManyRuns:
         if name in self._places:
             return self.inputs[:, self._places[name]].copy()
         place = self._ready[0].of._watching.view(name)
-        if place:
-            values = self._core.measure(place.number)
+        if place and (values := self._core.measure(place.number)) is not None:
             return place.pick(values) if place.is_linear else np.concatenate([place.pick(each) for each in values[:, None]])
         found = self.system._columns_of.get(name, ())
         if len(found) == 1 and found[0][0] < 2:

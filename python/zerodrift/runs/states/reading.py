@@ -49,7 +49,6 @@ class Reading:
         system._refuse_name(name)
 
     def _measure(self, place: Place) -> Callable[[], Any]:
-        if self._measured is None:
-            self._measured = self._of.measured if self._core.inputs is not None else self._of.measured.for_run()
+        self._measured = self._measured or self._of.measured
         read = self._core.measure(self._measured, place.number, place.component)
         return read if place.form is None else lambda: place.pick(read()[None])[0]
