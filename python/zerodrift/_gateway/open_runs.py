@@ -184,7 +184,7 @@ class ManyOpenRuns:
         lib.zd_open_runs_read(self.c, i, 1)
 
     def measure(self, number: int) -> np.ndarray | None:
-        """A measure at the present states: (runs, size). None: one run cannot evaluate it, which says why where it is read alone."""
+        """A measure at the present states: (runs, size). None: one run cannot evaluate it, and says why if it is read alone."""
         if not self._measured:
             self._measured = [each.measured for each in self._of]
             self._systems = ffi.new("const zd_system *[]", [each.c for each in self._measured])
