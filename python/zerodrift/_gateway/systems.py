@@ -267,11 +267,8 @@ class CoreSystem(Measuring):
         if self.packing and largest > MAX_ROWS:
             raise WrongValue(f"evaluate() makes dense matrices of up to {MAX_ROWS} rows, and here these would have {largest}: "
                              "sol[...] has coordinates, velocities and multipliers, and product() multiplies by A, M and C")
-        arrays = self.evaluate_stored(t, p, v)
-        packed = {name: self.packing.expand(name, arrays[name]) for name in PACKED if name in arrays} if self.packing else {}
-        if self.packing and self.c.followers and "A" in packed:
-            packed["A"] = np.vstack([packed["A"], self.follower_rows(t, p, v)])
-        return arrays | packed
+        found = self.evaluate_states(tuple(self.layout), np.array([float(t)]), p[None], v[None])
+        return {name: values[0] for name, values in found.items()}
 
     def rows_above_rounding(self, t: float, p: np.ndarray, v: np.ndarray, C: np.ndarray) -> np.ndarray:
         """C (m, nv) or its first rows, with zeros in rows that are the rounding error of terms that cancel, as in constraints
@@ -333,13 +330,15 @@ class CoreSystem(Measuring):
         return {name: self.stored(name) for name, term in TERMS.items() if self.provides & term.bit}
 
     def evaluate_states(self, names: tuple[str, ...], t: np.ndarray, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
-        """Terms of these names that the system has, at many states t (k,), p (k, nq), v (k, nv), with dense matrices.
-
-        Rows of A for coordinates that follow others are zero.
-        """
+        """Terms of these names that the system has, at many states t (k,), p (k, nq), v (k, nv), with dense matrices."""
         k, arrays = len(t), self._evaluated(tuple(name for name in names if name in self.layout), t, p, v)
-        return {name: self.packing.expand(name, array.reshape(k, -1)) if self.packing and name in PACKED
-                else array.reshape(k, *self.layout[name]) for name, array in arrays.items()}
+        found = {name: array.reshape(k, *self.layout[name]) for name, array in arrays.items()}
+        if self.packing:
+            found |= {name: self.packing.expand(name, found[name]) for name in PACKED if name in found}
+        if self.packing and self.c.followers and "A" in found:
+            rows = [self.follower_rows(*at) for at in zip(t.tolist(), p, v, strict=True)]
+            found["A"] = np.concatenate([found["A"], np.reshape(rows, (k, self.c.followers, self.nv))], axis=1)
+        return found
 
     def residuals_along(self, parts: str, at: tuple[float, np.ndarray, np.ndarray], vdot: np.ndarray, lam: np.ndarray,
                         directions: tuple[np.ndarray, ...], *, u: np.ndarray | None = None, is_rough: bool = False) -> np.ndarray:

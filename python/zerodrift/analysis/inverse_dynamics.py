@@ -15,8 +15,8 @@ from . import read_forces
 from .effort_result import Efforts
 from .kinematic_result import Kinematics
 from .names import dominant
-from .quantities import components, conjugate, find, names_of, values_of
-from .state import State, scales, state
+from .quantities import components, conjugate, find, names_of, rates_of, values_of
+from .state import State, scales, states
 from .tangent import DEPENDENT, Tangent, multipliers
 
 VIOLATION = 1e-6        # relative to the size: larger violations of the constraints by the given motion are an error
@@ -134,42 +134,39 @@ def _weights(given: Any, names: list[str]) -> dict[str, float]:
 def _solved(system: BaseSystem, samples: tuple[np.ndarray, ...], names: list[str], weights: Mapping[str, float]) -> Efforts:
     """Efforts and multipliers at all samples."""
     t, p, v, vdot = samples
-    k, found, undriven, along = len(t), [], {}, [conjugate(system, name) for name in names]
+    k, undriven, along = len(t), {}, tuple(conjugate(system, name) for name in names)
     lam, residual, rank, power = np.full((k, system.m), np.nan), np.full(k, np.nan), np.zeros(k, dtype=int), np.full(k, np.nan)
-    for i in range(k):
-        if not (np.isfinite(p[i]).all() and np.isfinite(v[i]).all() and np.isfinite(vdot[i]).all()):
-            found.append(None)
-            continue
-        at = state(system, float(t[i]), p[i], v[i])
+    known = np.flatnonzero(np.isfinite(np.hstack([p, v, vdot])).all(axis=1))
+    at_known = states(system, t[known], p[known], v[known])
+    sizes = [len(find(at, name, "efforts").row) for at in at_known[:1] for name in along]
+    G = rates_of(system, along, "efforts", t[known], p[known], v[known])["row"] if sizes else np.zeros((len(known), 0, system.nv))
+    weight = np.repeat([weights.get(name, 1.0) for name in names], sizes or 0)
+    u = np.full((k, len(weight)), np.nan)
+    for i, at, rows in zip(known, at_known, G, strict=True):
         _check_motion(at, vdot[i])
-        rows, weighted = [find(at, name, "efforts").row for name in along], [weights.get(name, 1.0) for name in names]
+        V = Tangent(at).velocities
         if core_of(system).functions:
-            at = _with_reactions(at, vdot[i], along, rows, weighted)
-        u, lam[i], left, rank[i] = _at(at, vdot[i], rows, weighted)
-        residual[i], power[i] = np.linalg.norm(left), float(u @ (np.vstack(rows) @ v[i])) if rows else 0.0
-        if residual[i] > UNDRIVEN * _size(at, vdot[i]):
-            undriven[dominant(at, at.A @ (Tangent(at).velocities @ left))] = residual[i]
-        found.append(np.split(u, np.cumsum([len(each) for each in rows])[:-1]))
+            at = _with_reactions(at, V, vdot[i], along, rows, weight)
+        u[i], lam[i], left, rank[i] = _at(at, V, vdot[i], rows, weight)
+        residual[i], power[i] = np.linalg.norm(left), u[i] @ (rows @ v[i])
+        if _is_missing(residual[i], at, V, vdot[i]):
+            undriven[dominant(at, at.A @ (V @ left))] = residual[i]
     if undriven:
         subject = f"the efforts {', '.join(names)} cannot drive" if names else "nothing drives"
         warnings.warn(f"{subject} this motion of {system.name}: a force of up to "
                       f"{max(undriven.values()):.3g} N/sqrt(kg) in the mass metric is missing at {', '.join(undriven)}",
                       AccuracyWarning, stacklevel=3)
-    efforts = _by_name(names, found, k)
-    acting = along, np.column_stack([np.zeros((k, 0)), *(efforts[name] for name in names)])
-    return Efforts(system, samples, lam, efforts, acting, residual=residual, power=power, rank=rank)
+    efforts = _by_name(names, np.split(u, np.cumsum(sizes)[:-1], axis=1) if sizes else [np.full((k, 1), np.nan) for _ in names])
+    return Efforts(system, samples, lam, efforts, (list(along), u), residual=residual, power=power, rank=rank)
 
 
-def _at(at: State, vdot: np.ndarray, rows: list[np.ndarray],
-        weights: list[float]) -> tuple[np.ndarray, np.ndarray, np.ndarray, int]:
+def _at(at: State, V: np.ndarray, vdot: np.ndarray, G: np.ndarray,
+        weight: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, int]:
     """Efforts, multipliers, the residual on the tangent space and the rank of the efforts there, at one sample.
 
     An effort that the constraints take up does not count: its part on the tangent space is rounding of its whole.
     """
-    V = Tangent(at).velocities
     wanted = at.M @ vdot - at.force
-    G = np.vstack(rows) if rows else np.zeros((0, at.system.nv))
-    weight = np.concatenate([np.full(len(each), by) for each, by in zip(rows, weights, strict=True)]) if rows else np.zeros(0)
     acting = V.T @ G.T * weight
     values = np.linalg.svd(acting, compute_uv=False) if acting.size else np.zeros(0)
     dependent = DEPENDENT * float((weight * _sizes(at, V, G)).max(initial=0.0))
@@ -180,10 +177,11 @@ def _at(at: State, vdot: np.ndarray, rows: list[np.ndarray],
     return u, multipliers(at, G.T @ u - wanted), left, rank
 
 
-def _with_reactions(at: State, vdot: np.ndarray, along: list[str], rows: list[np.ndarray], weights: list[float]) -> State:
+def _with_reactions(at: State, V: np.ndarray, vdot: np.ndarray, along: tuple[str, ...], G: np.ndarray,
+                    weight: np.ndarray) -> State:
     """The state with the forces of user functions that read the reactions of this motion."""
     def respond(force: np.ndarray) -> read_forces.Motion:
-        u, lam, *_ = _at(at._replace(force=force), vdot, rows, weights)
+        u, lam, *_ = _at(at._replace(force=force), V, vdot, G, weight)
         return vdot, lam, u
 
     return at._replace(force=read_forces.solved(at, along, respond)[1])
@@ -199,10 +197,15 @@ def _sizes(at: State, V: np.ndarray, G: np.ndarray) -> np.ndarray:
     return rows * float(np.abs(V / scale.v[:, None]).max(initial=0.0))
 
 
-def _size(at: State, vdot: np.ndarray) -> float:
-    """The size of the forces on the tangent space, before they cancel."""
-    V = np.abs(Tangent(at).velocities.T)
-    return float(np.linalg.norm(V @ (np.abs(at.M) @ np.abs(vdot) + np.maximum(at.magnitudes, np.abs(at.force))))) or 1.0
+def _is_missing(residual: float, at: State, V: np.ndarray, vdot: np.ndarray) -> bool:
+    """True if the residual is more than rounding of the forces on the tangent space, of which most need not be known before they
+    cancel.
+    """
+    inertial, V = np.abs(at.M) @ np.abs(vdot), np.abs(V.T)
+    if residual <= UNDRIVEN * np.linalg.norm(V @ (inertial + np.abs(at.force))):
+        return False
+    size = float(np.linalg.norm(V @ (inertial + np.maximum(at.magnitudes, np.abs(at.force)))))
+    return residual > UNDRIVEN * (size or 1.0)
 
 
 def _check_motion(at: State, vdot: np.ndarray) -> None:
@@ -219,12 +222,11 @@ def _check_motion(at: State, vdot: np.ndarray) -> None:
                                     f"violates {names[int(np.abs(left).argmax())]!r} by {worst:.3g}")
 
 
-def _by_name(names: list[str], found: list[Any], k: int) -> dict[str, np.ndarray]:
-    """Efforts by name, (k,) or (k, size)."""
+def _by_name(names: list[str], found: list[np.ndarray]) -> dict[str, np.ndarray]:
+    """Efforts by name, (k,) or (k, size), from (k, size) each."""
     by_name = {}
-    for j, name in enumerate(names):
-        size = next((len(each[j]) for each in found if each is not None), 1)
-        values = np.array([np.full(size, np.nan) if each is None else each[j] for each in found]).reshape(k, size)
+    for name, values in zip(names, found, strict=True):
+        size = values.shape[1]
         by_name[name] = values[:, 0] if size == 1 else values
         if 1 < size <= 3:
             by_name |= {part: values[:, i] for i, part in enumerate(components(name, size))}

@@ -13,9 +13,9 @@ from ..errors import AccuracyWarning, InconsistentStart, LockedWarning, WrongVal
 from ..systems.base import BaseSystem, core_of, system_of
 from .kinematic_result import Kinematics
 from .prescribed import Prescribed, prescribed
-from .quantities import find, values_of
+from .quantities import find, rates_of, values_of
 from .retraction import near_to
-from .state import scales, state
+from .state import scales, state, states
 from .tangent import DEPENDENT, row_lengths
 from .tracker import DeadPoint, Target, Tracker
 
@@ -167,14 +167,16 @@ def _rates(system: BaseSystem, times: np.ndarray, positions: np.ndarray, wanted:
            has_rates: bool) -> tuple[np.ndarray, np.ndarray]:
     """Velocities and accelerations (k, nv) each."""
     v, vdot = (np.full((len(times), system.nv), np.nan) for _ in range(2))
-    for i in np.flatnonzero(np.isfinite(positions).all(axis=1) & has_rates):
-        at = state(system, float(times[i]), positions[i], np.zeros(system.nv))
-        rate = np.concatenate([-at.Phi_t, *(each.rate[i] for each in wanted.values())])
-        v[i] = _solved(at.system, at.p, np.vstack([at.C, *(find(at, name, "motion").row for name in wanted)]), rate, times[i])
-        at = state(system, at.t, at.p, v[i])
-        found = [find(at, name, "motion") for name in wanted]
-        second = np.concatenate([at.xi, *(each.second[i] - one.bias for each, one in zip(wanted.values(), found, strict=True))])
-        vdot[i] = _solved(at.system, at.p, np.vstack([at.C, *(each.row for each in found)]), second, times[i])
+    known, names = np.flatnonzero(np.isfinite(positions).all(axis=1) & has_rates), tuple(wanted)
+    t, p = times[known], positions[known]
+    rate, second = (np.hstack([getattr(each, order)[known] for each in wanted.values()]) for order in ("rate", "second"))
+    v[known] = 0.0
+    found = rates_of(system, names, "motion", t, p)
+    for i, at, row, its_rate in zip(known, states(system, t, p, v[known]), found["row"], rate, strict=True):
+        v[i] = _solved(system, at.p, np.vstack([at.C, row]), np.concatenate([-at.Phi_t, its_rate]), at.t)
+    found = rates_of(system, names, "motion", t, p, v[known])
+    for i, at, row, its_second in zip(known, states(system, t, p, v[known]), found["row"], second - found["bias"], strict=True):
+        vdot[i] = _solved(system, at.p, np.vstack([at.C, row]), np.concatenate([at.xi, its_second]), at.t)
     return v, vdot
 
 

@@ -11,8 +11,8 @@ import numpy as np
 from .. import _check, _gateway
 from ..errors import CorrectionFailed
 from ..systems.base import BaseSystem, core_of
-from .quantities import find, values_of
-from .state import LARGEST, State, scales, state
+from .quantities import find, rates_of, values_of
+from .state import State, scales, small_core, state
 from .tangent import DEPENDENT, inverse_of_products, norms
 
 ITERATIONS = 30
@@ -88,17 +88,16 @@ def onto(system: BaseSystem, t: float, p: np.ndarray, held: Mapping[str, np.ndar
 def _position_terms(system: BaseSystem, t: float, p: np.ndarray, held: Mapping[str, np.ndarray],
                     target: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """A (nq, nv), violations (mh + held,) and their rows (mh + held, nv)."""
-    core = core_of(system)
-    if not held and not core.c.followers and max(core.nq, core.nv, core.m) <= LARGEST:       # nothing else is evaluated
-        terms = core.evaluate_states(("A", "Phi", "C"), np.array([float(t)]), np.ascontiguousarray(p), np.zeros(core.nv))
-        A = terms["A"][0] if "A" in terms else np.eye(core.nv)
-        if not core.mh:
-            return A, np.zeros(0), np.zeros((0, core.nv))
-        C = core.rows_above_rounding(float(t), np.ascontiguousarray(p), np.zeros(core.nv), terms["C"][0, :core.mh])
-        return A, terms["Phi"][0], C
-    at = state(system, t, p, np.zeros(system.nv))
-    value, rows = rows_of(at, held)
-    return at.A, np.concatenate([at.Phi, value - target]), np.vstack([at.holonomic, rows])
+    core = small_core(system)
+    at = np.array([float(t)]), np.ascontiguousarray(p)[None], np.zeros((1, core.nv))
+    terms = core.evaluate_states(("A", "Phi", "C"), *at)
+    A = terms["A"][0] if "A" in terms else np.eye(core.nv)
+    C, Phi = terms["C"][0][:core.mh] if core.mh else np.zeros((0, core.nv)), terms["Phi"][0] if core.mh else np.zeros(0)
+    C = core.rows_above_rounding(float(t), *(each[0] for each in at[1:]), C)
+    if not held:
+        return A, Phi, C
+    found = rates_of(system, tuple(held), "hold", *at)
+    return A, np.concatenate([Phi, found["value"][0] - target]), np.vstack([C, found["row"][0]])
 
 
 def _least_step(rows: np.ndarray, residual: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, float, bool]:

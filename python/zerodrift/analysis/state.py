@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check
-from .._gateway import is_length
+from .._gateway import CoreSystem, is_length
 from ..errors import ZerodriftError
 from ..systems.base import BaseSystem, core_of, system_of
 
@@ -46,18 +46,40 @@ class State(NamedTuple):
         return self.C[:self.system.mh]
 
 
-def state(system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray) -> State:
-    """Terms at (t, p, v)."""
+def small_core(system: BaseSystem) -> CoreSystem:
+    """The core's system, whose matrices may be dense.
+
+    Raises
+    ------
+    ZerodriftError
+        If it is too large for that.
+    """
     core = core_of(system)
     if max(core.nq, core.nv, core.m) > LARGEST:
         raise ZerodriftError(f"{system.name} must have at most {LARGEST} coordinates, velocities and constraints for this, not "
                              f"{max(core.nq, core.nv, core.m)}: its matrices are dense here")
-    p, v = np.ascontiguousarray(p), np.ascontiguousarray(v)
-    terms, nv, m = core.evaluate(t, p, v), core.nv, core.m
-    zero, C = np.zeros(nv), core.rows_above_rounding(t, p, v, terms.get("C", np.zeros((m, nv))))
-    return State(system, t, p, v, terms.get("A", np.eye(core.nq, nv)), terms["M"], terms.get("f", zero) - terms.get("d", zero),
-                 terms.get("Phi", np.zeros(core.mh)), C, terms.get("Phi_t", np.zeros(m)),
-                 terms.get("xi", np.zeros(m)))
+    return core
+
+
+def state(system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray) -> State:
+    """Terms at (t, p, v)."""
+    return states(system, np.array([float(t)]), p[None], v[None])[0]
+
+
+def states(system: BaseSystem, times: np.ndarray, p: np.ndarray, v: np.ndarray) -> list[State]:
+    """Terms at many states: times (k,), p (k, nq), v (k, nv)."""
+    core = small_core(system)
+    p, v = np.ascontiguousarray(p, dtype=float), np.ascontiguousarray(v, dtype=float)
+    k, nv, m = len(times), core.nv, core.m
+    absent = {"A": (core.nq, nv), "f": (nv,), "d": (nv,), "Phi": (core.mh,), "C": (m, nv), "Phi_t": (m,), "xi": (m,)}
+    terms = {name: np.zeros((k, *shape)) for name, shape in absent.items()} | {"A": np.tile(np.eye(core.nq, nv), (k, 1, 1))}
+    terms |= core.evaluate_states(tuple(core.layout), times, p, v)
+    found = []
+    for i, t in enumerate(times.tolist()):
+        at = {name: values[i] for name, values in terms.items()}
+        C = core.rows_above_rounding(t, p[i], v[i], at["C"])
+        found.append(State(system, t, p[i], v[i], at["A"], at["M"], at["f"] - at["d"], at["Phi"], C, at["Phi_t"], at["xi"]))
+    return found
 
 
 class Scales(NamedTuple):

@@ -17,7 +17,7 @@ from ..systems.base import BaseSystem
 from .names import dominant
 from .quantities import find
 from .retraction import moved, onto
-from .state import scales, state
+from .state import State, scales, state
 from .tangent import DEPENDENT, null_space, row_lengths, scaled_rows
 
 LARGEST_STEP = 0.25         # of a part, in characteristic scales
@@ -104,7 +104,7 @@ class Tracker:
         Above 0, the prescribed quantities contradict each other or the constraints; 0 next to a dead point, where the rows are
         singular.
         """
-        rows, change = self._rows(p, here, there)
+        rows, change = self._rows(state(self.system, here.t, p, self._rest), here, there)
         scale = scales(self.system, p).v
         values = np.linalg.svd(scaled_rows(rows, scale), compute_uv=False)
         if len(rows) <= self.system.nv or values[self.system.nv - 1] < NEAR_SINGULAR * values[0]:
@@ -115,17 +115,17 @@ class Tracker:
         off = float(left / max(np.abs(change).max(initial=0.0), 1e-300))
         return off if off > CONTRADICTING else 0.0
 
-    def _rows(self, p: np.ndarray, here: Target, there: Target) -> tuple[np.ndarray, np.ndarray]:
+    def _rows(self, at: State, here: Target, there: Target) -> tuple[np.ndarray, np.ndarray]:
         """Rows (mh + size, nv) of the constraints and prescribed quantities, and their changes between targets."""
-        at, m, dt = state(self.system, here.t, p, self._rest), self.system.mh, there.t - here.t
+        m, dt = self.system.mh, there.t - here.t
         found = [find(at, name, "prescribed") for name in self.names]
         changes = [there.values[name] - here.values[name] for name in self.names]
         return np.vstack([at.holonomic, *(each.row for each in found)]), np.concatenate([-at.Phi_t[:m] * dt, *changes])
 
     def _part(self, p: np.ndarray, here: Target, there: Target) -> np.ndarray | None:
         """The position after a part of the way; None where that is too long to be sure of it."""
-        delta = self._predicted(p, here, there)
         at, scale = state(self.system, here.t, p, self._rest), scales(self.system, p).p
+        delta = self._predicted(at, here, there)
         if delta is None or (step := float(np.abs(at.A @ delta / scale).max(initial=0.0))) > LARGEST_STEP:
             return None
         guess = moved(at, delta)
@@ -136,10 +136,10 @@ class Tracker:
         corrected = float(np.abs((found - guess) / scale).max(initial=0.0))
         return found if corrected <= LARGEST_CORRECTION * step + 1e-9 else None
 
-    def _predicted(self, p: np.ndarray, here: Target, there: Target) -> np.ndarray | None:
+    def _predicted(self, at: State, here: Target, there: Target) -> np.ndarray | None:
         """The displacement (nv,) that the rates of the targets determine; None where they do not."""
-        rows, change = self._rows(p, here, there)
-        scale = scales(self.system, p).v
+        rows, change = self._rows(at, here, there)
+        scale = scales(self.system, at.p).v
         length = row_lengths(rows * scale)
         values = np.linalg.svd(scaled_rows(rows, scale), compute_uv=False)
         if len(values) < self.system.nv or values[self.system.nv - 1] < SINGULAR * values[0]:
