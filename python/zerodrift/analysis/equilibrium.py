@@ -14,10 +14,10 @@ from ..runs.states.operations import project
 from ..systems.base import BaseSystem, system_of
 from .equilibrium_result import Equilibrium, at_rest, in_motion, of_many
 from .large import MANY, blocks_that_meet, found
-from .quantities import components, find, names_of, values_of
+from .quantities import components, find, names_of, rows_of, values_of
 from .relaxation import settled
 from .rest import Balance, Search
-from .retraction import near_to, rows_of
+from .retraction import near_to
 from .state import State, scales, state
 from .steady import Steady
 
@@ -117,7 +117,7 @@ def balanced(system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray) -> tupl
 def _steady(system: BaseSystem, t: float, p: np.ndarray, speeds: Mapping[str, float], hold: list[str]) -> Equilibrium:
     """The steady motion with given speeds."""
     at = state(system, t, p, np.zeros(system.nv))
-    held = [part for name in hold for part in components(name, len(rows_of(at, {name: None})[0]))]
+    held = [part for name in hold for part in components(name, len(rows_of(at, [name])))]
     search = Steady(system, t, {name: _speed(at, name, value) for name, value in speeds.items()}, held)
     flow, efforts = search.run(p, np.array(system._state_or_start(None, None, "near", "v", t)[1]))
     return in_motion(flow, dict(zip(held, map(float, efforts), strict=True)), search.iterations)

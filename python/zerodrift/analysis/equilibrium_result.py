@@ -13,9 +13,9 @@ from ..systems.base import BaseSystem
 from .flow import Flow
 from .large import SparseBalance
 from .names import pivots
-from .quantities import components
+from .quantities import components, rows_of
 from .rest import Balance, nearest
-from .retraction import consistent, onto, rows_of
+from .retraction import consistent, onto
 from .spectrum import Spectrum, of_matrix
 from .state import scales
 
@@ -148,7 +148,7 @@ def _efforts(balance: Balance) -> dict[str, Any]:
     """Efforts that hold the quantities that are held: the opposites of their multipliers."""
     effort, at = {}, balance.at.system.m
     for name in balance.names:
-        size = len(rows_of(balance.at, {name: None})[0])
+        size = len(rows_of(balance.at, [name]))
         part = -balance.multipliers[at:at + size]
         effort.update({each: float(value) for each, value in zip(components(name, size), part, strict=True)})
         at += size

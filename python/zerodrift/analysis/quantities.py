@@ -93,6 +93,11 @@ def find(at: State, name: str, what: str) -> Found:
                      f"{_check.closest(name, system._names_of_quantities())}", "wrong-name")
 
 
+def rows_of(at: State, names: Iterable[str]) -> np.ndarray:
+    """Rows (k, nv) of quantities that are held, stacked."""
+    return np.vstack([np.zeros((0, at.system.nv)), *(find(at, name, "hold").row for name in names)])
+
+
 def rates_of(system: BaseSystem, names: tuple[str, ...], what: str, t: np.ndarray, p: np.ndarray,
              v: np.ndarray | None = None) -> dict[str, np.ndarray]:
     """Values, rates, biases (k, size) and rows (k, size, nv) of quantities, stacked, at states t (k,), p (k, nq), v (k, nv).

@@ -10,7 +10,7 @@ from ..errors import NoUniqueMotion
 from ..runs.states.instant import KnownInstant
 from ..systems.base import core_of
 from . import differences
-from .quantities import find, rates_of
+from .quantities import rates_of, rows_of
 from .state import State, sizes_of, state
 from .tangent import Tangent, multipliers
 
@@ -38,7 +38,7 @@ class Held:
     def motion(self, at: State) -> tuple[np.ndarray, np.ndarray, Motion]:
         """Values (k,) of the user functions, the generalized force of the system (nv,) and the motion with them."""
         m, efforts = at.system.m, self.efforts
-        G = np.vstack([np.zeros((0, at.system.nv)), *(find(at, name, "hold").row for name in self.names)])
+        G = rows_of(at, self.names)
         tangent, C = (Tangent(at, G), np.vstack([at.C, G])) if efforts is None else (Tangent(at), at.C)
         V, x = tangent.velocities, tangent.solve_rows(at.xi) if self._is_moving and m else np.zeros(at.system.nv)
 

@@ -18,8 +18,9 @@ import numpy as np
 from ..errors import ZerodriftError
 from ..systems.base import BaseSystem, core_of
 from .derivatives import FREE, of_residuals_along
+from .quantities import rows_of
 from .read_forces import Held
-from .retraction import moved, onto, rows_of
+from .retraction import moved, onto
 from .state import scales, state
 from .tangent import Tangent, multipliers
 
@@ -42,7 +43,7 @@ class Balance:
                  is_rough: bool = False) -> None:
         self.is_rough, self.zero = is_rough, ROUGHLY_FLAT if is_rough else FLAT
         self.at, self.names = state(system, t, p, np.zeros(system.nv)), held
-        self.held = rows_of(self.at, held)[1]
+        self.held = rows_of(self.at, held)
         self.rows = np.vstack([self.at.C, self.held])
         self.tangent = Tangent(self.at, self.held)
         self.hold = Held(held) if held else FREE

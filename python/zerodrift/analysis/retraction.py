@@ -23,13 +23,6 @@ QUADRATIC = 1e-5        # characteristic scales: steps that converge quadratical
 STAGNATED = 1e-9        # a last step of this size counts where the next ones are not smaller
 
 
-def rows_of(at: State, names: Mapping[str, object]) -> tuple[np.ndarray, np.ndarray]:
-    """Values (k,) and rows (k, nv) of quantities of positions, stacked."""
-    found = [find(at, name, "hold") for name in names]
-    value = np.concatenate([each.value for each in found]) if found else np.zeros(0)
-    return value, np.vstack([each.row for each in found]) if found else np.zeros((0, at.system.nv))
-
-
 def moved(at: State, delta: np.ndarray) -> np.ndarray:
     """The position after a displacement in quasi-coordinates, with unit quaternions and followers restored."""
     return consistent(at.system, at.p + at.A @ delta)

@@ -15,7 +15,7 @@ import numpy as np
 from ..errors import CorrectionFailed, SingularSystem
 from ..systems.base import BaseSystem
 from .names import dominant
-from .quantities import find
+from .quantities import find, rows_of
 from .retraction import moved, onto
 from .state import State, scales, state
 from .tangent import DEPENDENT, null_space, row_lengths, scaled_rows
@@ -70,7 +70,7 @@ class Tracker:
             Naming the coordinate that stays free.
         """
         at = state(self.system, t, p, self._rest)
-        rows = np.vstack([at.holonomic, *(find(at, name, "prescribed").row for name in self.names)])
+        rows = np.vstack([at.holonomic, rows_of(at, self.names)])
         free = null_space(rows, scales(self.system, p).v)
         if free.shape[1]:
             names = ", ".join(sorted({dominant(at, at.A @ column) for column in free.T}))
