@@ -22,12 +22,13 @@ def moving_train():
     rack, follower = m.body("rack", 2.0, 0.1, at=(0.4, 0.3)), m.body("follower", 0.5, 0.05, at=(1.1, 0.4))
     joints = {"O": m.revolute("O", m.ground, arm.point((0, 0))), "J": m.revolute("J", arm, pinion.point((0, 0))),
               "K": m.revolute("K", wheel.point((0, 0)), arm),      # the wrong way round, so that signs are seen
-              "X": m.prismatic("X", arm, rack, at=(0.4, 0.3), axis=(1, 0.5)),
+              "X": m.prismatic("X", arm, rack, at=(0.4, 0.3), axis=(1, 0.5), damping=0.5),
               "Y": m.prismatic("Y", follower, arm, at=(1.1, 0.4), axis=(0, 1))}
     teeth = m.rack_pinion("teeth", joints["J"], joints["X"], ratio=0.3)
     mesh = m.gear("mesh", joints["J"], joints["K"], ratio=1.5)
     cam = m.cam("cam", joints["K"], joints["Y"], profile=lambda angle: 0.05 * np.sin(angle + 0.4))
     m.motor("drive", joints["J"], torque=1.0)
+    m.torsion_spring("coil", joints["K"], stiffness=2.0, angle=0.4, damping=0.1)        # in the torque of K, as the motor is in that of J
     # what each coupling does along the coordinates of joints, per joint
     along = {"J": lambda sol: -0.3 * sol[teeth.force] - 1.5 * sol[mesh.torque], "X": lambda sol: sol[teeth.force],
              "K": lambda sol: sol[mesh.torque] + sol[cam.cam_torque], "Y": lambda sol: sol[cam.force]}

@@ -48,6 +48,7 @@ typedef struct zd_measure {
 typedef struct zd_efforts {
     int count;
     const int *along;       /* (count, 2) index and component of a measure */
+    const int *joint;       /* (count,) joint whose reaction includes it, as along the joint's coordinate; -1: none */
     const double *effort;   /* (count,) N or N m, conjugate to its rate */
 } zd_efforts;
 

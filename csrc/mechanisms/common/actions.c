@@ -8,6 +8,13 @@ static void add_row(const zd_actions *self, const zd_relation *row, const double
     for (int i = 0; i < row->terms; i++) self->add(self->readings, to, term[i].quantity, scale * factors[i]);
 }
 
+/* Adds the effort of index i along a measure. */
+static void add_effort(const zd_actions *self, const zd_efforts *efforts, int i)
+{
+    const zd_output_spec *along = self->elements->output + efforts->along[2 * i];
+    self->add(self->readings, self->to, along->index + efforts->along[2 * i + 1], along->scale * efforts->effort[i]);
+}
+
 int zd_rows_act(const zd_actions *self, const zd_measured_state *at)
 {
     const zd_efforts none = {0}, *efforts = at->efforts ? at->efforts : &none;
@@ -17,10 +24,7 @@ int zd_rows_act(const zd_actions *self, const zd_measured_state *at)
         if (status) return status;
         add_row(self, self->elements->row + i, all.factors, -at->lambda[i], self->to);
     }
-    for (int i = 0; i < efforts->count; i++) {
-        const zd_output_spec *along = self->elements->output + efforts->along[2 * i];
-        self->add(self->readings, self->to, along->index + efforts->along[2 * i + 1], along->scale * efforts->effort[i]);
-    }
+    for (int i = 0; i < efforts->count; i++) add_effort(self, efforts, i);
     return ZD_DONE;
 }
 
@@ -32,11 +36,15 @@ void zd_joint_rows_act(const zd_actions *self, int count, const int *rows, const
     }
 }
 
-int zd_drives_act(const zd_actions *self, int joint, double t, const double *lambda, int all)
+int zd_drives_act(const zd_actions *self, int joint, const zd_measured_state *at)
 {
     const zd_planned_elements *elements = self->elements;
+    const zd_efforts none = {0}, *efforts = at->efforts && !at->is_of_constraints ? at->efforts : &none;
+    const double t = at->t;
     double value;
-    for (int i = 0; all && i < elements->forces; i++) {
+    for (int i = 0; i < efforts->count; i++)
+        if (efforts->joint[i] == joint) add_effort(self, efforts, i);
+    for (int i = 0; !at->is_of_constraints && i < elements->forces; i++) {
         if (elements->force[i].joint != joint) continue;
         const int status = zd_force_evaluate(elements, self->readings, elements->force + i, t, &value, NULL);
         if (status) return status;
@@ -45,7 +53,7 @@ int zd_drives_act(const zd_actions *self, int joint, double t, const double *lam
     for (int i = 0; i < elements->relations; i++) {
         const zd_relation *row = elements->row + elements->constraint_of_relation[i];
         if (row->joint != joint) continue;
-        const int status = zd_drive_force(elements, self->readings, i, 0, t, lambda, &value);
+        const int status = zd_drive_force(elements, self->readings, i, 0, t, at->lambda, &value);
         if (status) return status;
         self->add(self->readings, self->to, elements->term[row->first].quantity, value);
     }

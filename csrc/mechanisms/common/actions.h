@@ -15,8 +15,8 @@ typedef struct zd_actions {
 /* Statuses are those of planned.h. With the sign of (2), a row acts with -lambda times its factors. */
 int zd_rows_act(const zd_actions *self, const zd_measured_state *at);  /* all rows, and the efforts of the state */
 void zd_joint_rows_act(const zd_actions *self, int count, const int *rows, const double *lambda);  /* rows (count,) of a joint */
-/* Drives of a joint, by rows and, if `all`, by generalized forces, and its damping. */
-int zd_drives_act(const zd_actions *self, int joint, double t, const double *lambda, int all);
+/* All that acts in a joint along its coordinates: drives by rows and, unless `at` is of constraints, given forces and efforts. */
+int zd_drives_act(const zd_actions *self, int joint, const zd_measured_state *at);
 /* magnitude (m, 2) <- sums of each row; add() gets its two numbers, and ignores `to`. */
 int zd_rows_magnitudes(const zd_actions *self, double t, double *magnitude);
 

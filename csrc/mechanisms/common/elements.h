@@ -43,7 +43,7 @@ typedef struct zd_generalized_force {
     double value;               /* N; N m */
     int law;
     int first, terms;           /* inputs of the user function: first entry in the table of terms, and their number */
-    int joint;                  /* the joint whose reaction includes it, as its damping or drive; -1: none */
+    int joint;                  /* the joint whose reaction includes it, as its damping, drive or torsion spring; -1: none */
 } zd_generalized_force;
 
 /* Kinds of measures. Those of accelerations need vdot and the multipliers. Forces and torques have two or three components and one or

@@ -86,13 +86,13 @@ class Watching:
         return None if found is None else self._measures[found.number].unit
 
     def acting(self, names: Iterable[str], efforts: np.ndarray) -> Acting:
-        """Efforts (k, n) along quantities. Those along coordinates of joints, which are not measures, act in no reaction."""
+        """Efforts (k, n) along quantities. Those along coordinates that are not measures act in no reaction."""
         along: list[tuple[int, int]] = []
         for place in map(self.find, names):
             size = 1 if place is None or place.component is not None else self._measures[place.number].size
             along += [(place.number, place.component or i) if place else (-1, i) for i in range(size)]
         used = [i for i, (number, _) in enumerate(along) if number >= 0]
-        return Acting([along[i] for i in used], efforts[:, used])
+        return Acting([along[i] for i in used], [self.core.joint_of(along[i][0]) for i in used], efforts[:, used])
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Watching, (self.core,)       # what is known of solutions is found again

@@ -83,5 +83,5 @@ int zd_plane_joint_reaction(const zd_plane *self, const zd_plane_frame *frame, i
     int status = ZD_DONE;
     if (planned->carried) status = of_tree(self, frame, joint, to.point, at, reaction);
     else zd_joint_rows_act(&actions, planned->row_count, planned->rows, at->lambda);
-    return status ? status : zd_drives_act(&actions, joint, at->t, at->lambda, !at->is_of_constraints);
+    return status ? status : zd_drives_act(&actions, joint, at);
 }

@@ -46,5 +46,5 @@ int zd_space_joint_reaction(const zd_space *self, const zd_space_frame *frame, i
     *reaction = (zd_space_wrench){{0, 0, 0}, {0, 0, 0}};
     if (planned->carried) status = self->carrying.transmit(self, frame, joint, to.point, at, reaction);
     else zd_joint_rows_act(&actions, planned->row_count, planned->rows, at->lambda);
-    return status ? status : zd_drives_act(&actions, joint, at->t, at->lambda, !at->is_of_constraints);
+    return status ? status : zd_drives_act(&actions, joint, at);
 }

@@ -59,6 +59,12 @@ class MechanismCore(CoreSystem):
         super().__init__(self._function("system")(self._mechanism), (self._mechanism,))
         self.measures = tuple(tables.measures)
 
+    def joint_of(self, index: int) -> int:
+        """As of any system; what acts along the coordinate is part of the joint's reaction."""
+        along = self.measures[index]
+        reaction = ("joint force", f"{along.name.rpartition('.')[0]}.force") if along.size == 1 else None
+        return next((each.index for each in self.measures if (each.kind, each.name) == reaction), -1)
+
     @classmethod
     def _function(cls, name: str) -> Any:
         return getattr(lib, f"zd_{cls.dimension}_{name}")

@@ -64,9 +64,9 @@ class Joint(Fixed):
     if TYPE_CHECKING:       # the measures that the entry defines
         def __getattr__(self, name: str) -> Any: ...
 
-    force = vector("force", "Force of the first body on the second through the joint, in the drawing's axes, in N: reactions of "
-                   "the joint, its motors and its damping. Springs, and couplings such as gears, are elements of their own: "
-                   "their forces along the joint's coordinate are in their measures, and not in this one.")
+    force = vector("force", "Force of the first body on the second through the joint, in the drawing's axes, in N: its "
+                   "reaction, and what acts in it: motors, damping, torsion springs. What acts between points or joints, such as "
+                   "springs, actuators, gears and couplers, is in measures of its own, and not in this one.")
 
     @property
     def dimension(self) -> int:
@@ -132,7 +132,7 @@ def _measures(row: JointKind) -> dict[str, str]:
         found["acceleration"] = f"The rate of `speed`, in {unit}/s^2."
     if holds_angle(row) or row.coordinate == "angle":
         found["torque"] = ("The moment that the first body exerts on the second through the joint, about the second's point, in "
-                           "N m; as with `force`, without springs and couplings.")
+                           "N m; of the same parts as `force`.")
     if row.tension:
         found[row.tension] = "Force that pulls the two points together, negative where it pushes, in N."
     return found

@@ -48,7 +48,7 @@ class SpaceJoint(Joint):
             setattr(cls, name, scalar(name, doc))
         if has_torque(cls.row):
             cls.torque = vector("torque", "The moment that the first body exerts on the second through the joint, about the "
-                                "second's point, in the drawing's axes, in N m; without springs.")
+                                "second's point, in the drawing's axes, in N m; of the same parts as `force`.")
         if is_at_point(cls.row):
             for name, doc in PLACE.items():
                 setattr(cls, name, vector(name, doc))

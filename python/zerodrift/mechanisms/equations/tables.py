@@ -316,17 +316,17 @@ class Tables:
 
     def _table_force(self, element: TableForce) -> None:
         """Add the generalized force along each marker quantity of an element, and its measures."""
-        index = len(self.forces)
+        index, joint = len(self.forces), -1 if element.joint is None else self.joint_number[element.joint.name]
         for i, quantity in enumerate(self._element_quantities(element)):
             number = self._quantity(f"{element.name} {i}", quantity)
             if element.law is not None:
-                self._generalized_force("value", number, element)
+                self._generalized_force("value", number, element, joint)
                 continue
             stiffness, damping = (self.numbers(element, path, element.values[path]) for path in paths(element.row)[i])
             if quantity.kind == "rotation":         # damped by the angular velocity, not by the rate of the rotation vector
                 self.forces.append(entries.GeneralizedForce("spring", number, stiffness))
                 number, stiffness = self._quantity(f"{element.name} {i} turn", quantity._replace(kind="turn")), 0.0
-            self.forces.append(entries.GeneralizedForce("spring", number, stiffness, damping))
+            self.forces.append(entries.GeneralizedForce("spring", number, stiffness, damping, joint=joint))
         self.observed += self._efforts(element, index)
 
     def _element_quantities(self, element: TableForce) -> list[Quantity]:
