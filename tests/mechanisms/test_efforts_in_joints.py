@@ -68,3 +68,26 @@ def test_laws_read_it(space, layout):
     second = m.revolute("second", m.ground, other.point(zero), **({} if m.dimension == 2 else {"axis": (0, 0, 1)}))
     m.motor("drag", second, torque=lambda T: 0.1 * T, of={"T": pin.torque if m.dimension == 2 else pin.torque.z})
     assert_close(zd.Instant(m.system(layout))["second.acceleration"], 0.08 / INERTIA, 1e-12)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+@pytest.mark.parametrize("space", SPACES)
+def test_the_moment_on_either_side_of_a_guide(space, layout, turned):
+    """A body slides down a tilted guide, its mass centre 2 m off: the guide has to carry its weight across, at the mass centre."""
+    tilt, g, off = 0.6, 9.81, np.array([2.0, 0.0, 0.0])
+    axis = np.array([0.0, np.cos(tilt), np.sin(tilt)]) if space == "space" else np.array([np.cos(tilt), np.sin(tilt), 0.0])
+    weight = np.array([0.0, 0.0, -g]) if space == "space" else np.array([0.0, -g, 0.0])
+    off = off if space == "space" else 2.0 * np.array([1.0, 1.0, 0.0])
+    n = SPACES[space]
+    m = zd.Mechanism("guide", dimension=n, gravity=tuple(weight[:n]))
+    body = m.body("body", 1.0, 0.1 if n == 2 else (0.1, 0.1, 0.1), at=tuple(off[:n]))
+    sides = (body, m.ground) if turned else (m.ground, body)
+    guide = m.prismatic("guide", *sides, at=(0.0,) * n, axis=tuple(axis[:n]))
+    sol = zd.simulate(m.system(layout), 2.0, step=0.01)
+    across, slid = weight - weight @ axis * axis, weight @ axis * 2.0 * axis        # a t^2 / 2 at t = 2 s
+    on_ground, on_body = np.cross(slid + off, across), np.cross(off, -across)
+    expected = {"torque": on_ground, "first_torque": on_body} if turned else {"torque": on_body, "first_torque": on_ground}
+    for name, value in expected.items():
+        assert_close(sol[f"guide.{name}"][-1], value if n == 3 else value[2], 1e-9, scale=10.0)
+    assert f"guide.{guide.first_torque.name.partition('.')[2]}" in m.measures

@@ -80,8 +80,8 @@ static int measure_is_right(const tables *of, int i, zd_complaint to)
     const zd_output_spec *measure = of->elements->measure + i;
     const int kind = measure->kind, count = count_of(of, kind), index = measure->index;
     const int size = kind <= ZD_ACCELERATIONS || kind >= ZD_FORCE_SUM ? measure->size : 1;
-    const int terms = kind == ZD_DRIVE_VALUE && zd_is_in(index, count) ? of->elements->relation[index].terms : 1;
-    return (size > 0 && zd_is_in(index, count) && index + size <= count && zd_is_in(measure->term, terms)) ||
+    const int last = kind == ZD_DRIVE_VALUE && zd_is_in(index, count) ? of->elements->relation[index].terms : kind == ZD_JOINT_TORQUE;
+    return (size > 0 && zd_is_in(index, count) && index + size <= count && zd_is_in(measure->term, last + 1)) ||
            zd_complain(to, "measure %s: the entries that it measures must exist", measure->name);
 }
 

@@ -71,7 +71,8 @@ typedef struct zd_output_spec {
     int size;                   /* number of marker quantities (values, rates, accelerations) or of generalized forces (sums of
                                  * them) */
     double scale;               /* factor of the measured value: -1 for tensions of springs */
-    int term;                   /* term of the relation, for drive values; otherwise 0 */
+    int term;                   /* for drive values: term of the relation, or their number, for the value; for joint torques 1: about the
+                                 * point of the first body; otherwise 0 */
 } zd_output_spec;
 
 /* User function, computed outside the core; k is the number of its terms. Reactions that it reads follow its terms in x. For a generalized

@@ -133,11 +133,15 @@ def _measures(row: JointKind) -> dict[str, str]:
     if holds_angle(row) or row.coordinate == "angle":
         found["torque"] = ("The moment that the first body exerts on the second through the joint, about the second's point, in "
                            "N m; of the same parts as `force`.")
+    if holds_angle(row) and row.coordinate:
+        found["first_torque"] = FIRST_TORQUE
     if row.tension:
         found[row.tension] = "Force that pulls the two points together, negative where it pushes, in N."
     return found
 
 
+FIRST_TORQUE = ("The moment on the first body through the joint, about the first's point, in N m. `torque` is about the second's point, "
+                "which slides along: the two differ by the moment of the force.")
 PLACE = {"position": "Position of the joint, that of the second's point, in the drawing's axes, in m.",
          "velocity": "The velocity of that point, in the drawing's axes, in m/s."}
 TRANSMISSION = "The angle between the lines of its two links, in rad, where there is one: `zerodrift.transmission_angle`."

@@ -10,7 +10,7 @@ from ..._gateway import Variable
 from ..._gateway.mechanisms.space import JointKind, joint_kinds
 from ..._rotations import AXES
 from .bodies import Point
-from .joints import PLACE, Joint, class_of
+from .joints import FIRST_TORQUE, PLACE, Joint, class_of
 from .measures import scalar, vector
 from .numbers import AS_GIVEN, Numbers
 
@@ -49,6 +49,8 @@ class SpaceJoint(Joint):
         if has_torque(cls.row):
             cls.torque = vector("torque", "The moment that the first body exerts on the second through the joint, about the "
                                 "second's point, in the drawing's axes, in N m; of the same parts as `force`.")
+            if not is_at_point(cls.row):
+                cls.first_torque = vector("first_torque", FIRST_TORQUE)
         if is_at_point(cls.row):
             for name, doc in PLACE.items():
                 setattr(cls, name, vector(name, doc))

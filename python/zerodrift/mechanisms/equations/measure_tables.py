@@ -141,9 +141,14 @@ def _of_joints(tables: Tables) -> Iterator[OutputSpec]:
     for i, joint in enumerate(tables.joints):
         yield OutputSpec(f"{joint.name}.force", "N", "joint force", i, joint.dimension)
         if isinstance(joint, SpaceJoint):
-            if has_torque(joint.row):
-                yield OutputSpec(f"{joint.name}.torque", "N m", "joint torque", i, 3)
-        elif holds_angle(joint.row) or (has_coordinate(joint) and joint.coordinate == "angle"):
-            yield OutputSpec(f"{joint.name}.torque", "N m", "joint torque", i)
+            turns, slides = has_torque(joint.row), not is_at_point(joint.row)
+        else:
+            turns = holds_angle(joint.row) or (has_coordinate(joint) and joint.coordinate == "angle")
+            slides = joint.coordinate == "displacement"
+        size = 2 * joint.dimension - 3
+        if turns:
+            yield OutputSpec(f"{joint.name}.torque", "N m", "joint torque", i, size)
+        if turns and slides:
+            yield OutputSpec(f"{joint.name}.first_torque", "N m", "joint torque", i, size, -1.0, 1)
         if joint.row.tension:
             yield OutputSpec(f"{joint.name}.{joint.row.tension}", "N", "joint tension", i)
