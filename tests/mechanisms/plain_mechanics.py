@@ -147,8 +147,7 @@ class Model:
             x = coordinate(self.d["joints"][effort["joint"]], bodies)
             value = effort["constant"] - effort["stiffness"] * x.value - effort["damping"] * x.rate
             f += value * x.row
-            if effort["through"]:
-                through[effort["joint"]] += value * x.row
+            through[effort["joint"]] += value * x.row
         return f, through
 
     def solve(self, t, q, v):

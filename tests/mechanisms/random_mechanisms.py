@@ -161,10 +161,10 @@ class Maker:
         value = self.random.uniform(-2, 2)
         turns = self.d["joints"][joint]["kind"] == "revolute"
         self.m.motor("effort", self.joints[joint], **{"torque" if turns else "force": value})
-        self.d["efforts"].append({"joint": joint, "constant": value, "stiffness": 0.0, "damping": 0.0, "through": True})
+        self.d["efforts"].append({"joint": joint, "constant": value, "stiffness": 0.0, "damping": 0.0})
         if turns:
             self.m.torsion_spring("torsion spring", self.joints[joint], stiffness=4.0, angle=0.3, damping=0.2)
-            self.d["efforts"].append({"joint": joint, "constant": 4.0 * 0.3, "stiffness": 4.0, "damping": 0.2, "through": False})
+            self.d["efforts"].append({"joint": joint, "constant": 4.0 * 0.3, "stiffness": 4.0, "damping": 0.2})
 
     def _blade(self):
         body, at, axis = int(self.random.integers(len(self.bodies))), self._place(), np.array([0.8, -0.6])

@@ -1,4 +1,4 @@
-"""Forces and torques of joints contain what acts in them along their coordinates, by one rule; a wheel on its axis: I alpha = torque."""
+"""Forces and torques of joints contain what acts in them along their coordinates, by one rule: I alpha is the torque."""
 
 import numpy as np
 import pytest
@@ -74,7 +74,7 @@ def test_laws_read_it(space, layout):
 @pytest.mark.parametrize("layout", ["joint", "absolute"])
 @pytest.mark.parametrize("space", SPACES)
 def test_the_moment_on_either_side_of_a_guide(space, layout, turned):
-    """A body slides down a tilted guide, its mass centre 2 m off: the guide has to carry its weight across, at the mass centre."""
+    """A body slides down a tilted guide, its mass centre off it: the guide carries the weight across, at the mass centre."""
     tilt, g, off = 0.6, 9.81, np.array([2.0, 0.0, 0.0])
     axis = np.array([0.0, np.cos(tilt), np.sin(tilt)]) if space == "space" else np.array([np.cos(tilt), np.sin(tilt), 0.0])
     weight = np.array([0.0, 0.0, -g]) if space == "space" else np.array([0.0, -g, 0.0])

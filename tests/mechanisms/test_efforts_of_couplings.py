@@ -28,7 +28,7 @@ def moving_train():
     mesh = m.gear("mesh", joints["J"], joints["K"], ratio=1.5)
     cam = m.cam("cam", joints["K"], joints["Y"], profile=lambda angle: 0.05 * np.sin(angle + 0.4))
     m.motor("drive", joints["J"], torque=1.0)
-    m.torsion_spring("coil", joints["K"], stiffness=2.0, angle=0.4, damping=0.1)        # in the torque of K, as the motor is in that of J
+    m.torsion_spring("coil", joints["K"], stiffness=2.0, angle=0.4, damping=0.1)        # in K.torque
     # what each coupling does along the coordinates of joints, per joint
     along = {"J": lambda sol: -0.3 * sol[teeth.force] - 1.5 * sol[mesh.torque], "X": lambda sol: sol[teeth.force],
              "K": lambda sol: sol[mesh.torque] + sol[cam.cam_torque], "Y": lambda sol: sol[cam.force]}
@@ -113,6 +113,54 @@ def test_a_coupling_has_the_effort_of_its_unit():
     assert line.force.name == "line.force"
     with refused("wrong-attribute", "'line'"):
         _ = line.torque
-    wire = m.constraint("wire", lambda x: x, of={"x": bead.position.x})
-    with refused("wrong-attribute", "'wire'"):
-        _ = wire.force
+    hinge = m.revolute("hinge", m.ground, m.body("wheel", 1.0, 0.1).point((0, 0)))
+    locked = {verb: getattr(m, verb)(verb, lambda x: 2.0 * x, of={"x": measure}).torque.name
+              for verb, measure in (("coupler", hinge.angle), ("constraint", hinge.angle), ("nonholonomic", hinge.speed))}
+    assert locked == {verb: f"{verb}.torque" for verb in locked}
+
+
+ROPE = {"ax": "a.position.x", "ay": "a.position.y", "bx": "b.position.x", "by": "b.position.y"}
+
+
+@pytest.mark.parametrize("verb", ["coupler", "constraint"])
+@pytest.mark.parametrize("form", ["joint", "absolute"])
+def test_the_tension_of_a_rope_over_pulleys_wherever_it_is_read(verb, form):
+    """Atwood's machine, 1 kg and 3 kg: 2 m M / (m + M) g pulls on both; the value is the length, which tension shortens."""
+    m = zd.Mechanism("pulley", gravity=(0, -9.81))
+    m.particle("a", 1.0, at=(-1, -2)), m.particle("b", 3.0, at=(1, -1))
+    rope = getattr(m, verb)("rope", lambda ax, ay, bx, by: np.hypot(ax + 1, ay) + np.hypot(bx - 1, by) - 3, of=ROPE)
+    system, tension = m.system(form), -14.715
+    sol = zd.simulate(system, 0.1, step=0.01, outputs=["rope.force"], events=zd.Event("rope.force", value=10.0))
+    run = zd.Run(system, step=0.01)
+    run.step(3)
+    motion = {"a.position.x": lambda t: -1.0 + 0.0 * t, "b.position.x": lambda t: 1.0 + 0.0 * t,
+              "b.position.y": lambda t: -1.0 - 0.5 * 9.81 / 2 * t * t}
+    kin = zd.kinematics(system, motion, np.array([0.0, 0.1]))
+    runs = zd.ensemble(system, 0.1, v0=np.zeros((2, system.nv)), step=0.01, outputs=["rope.force"])
+    forces = zd.inverse_dynamics(system, kin, efforts=[])
+    for found in (sol["rope.force"], sol.outputs["rope.force"], run[rope.force], zd.Instant(system)["rope.force"],
+                  forces["rope.force"], runs["rope.force"]):
+        np.testing.assert_allclose(found, tension, rtol=1e-9)
+    assert "rope.force" in m.measures
+    for read in (sol, run, zd.Instant(system), kin):
+        with refused("duplicate-name", r"rope\.force"):
+            read["rope"]
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_the_force_of_a_blade(layout):
+    """A sleigh at 45 degrees is pushed along x: the blade carries the push across it."""
+    m = zd.Mechanism("sleigh")
+    sleigh = m.body("sleigh", 1.0, 0.1, angle=np.pi / 4)
+    blade = m.nonholonomic("blade", lambda a, u, v: u * np.sin(a) - v * np.cos(a),
+                           of={"a": sleigh.angle, "u": sleigh.velocity.x, "v": sleigh.velocity.y})
+    m.force("push", sleigh.center, value=(2.0, 0.0))
+    np.testing.assert_allclose(zd.Instant(m.system(layout))[blade.force], -2.0 * np.sin(np.pi / 4), rtol=1e-12)
+
+
+def test_a_coupler_of_one_angle_reports_its_torque():
+    """An angle of a universal joint is a t^2 / 10: I alpha = 0.2 N m."""
+    m = zd.Mechanism("u", dimension=3)
+    m.universal("u", m.ground, m.body("b", 1.0, (1, 1, 1)), at=(0, 0, 0), axes=((1, 0, 0), (0, 0, 1)))
+    m.coupler("drive", lambda a, t: a - 0.1 * t * t, of={"a": "u.angle1"})
+    np.testing.assert_allclose(zd.simulate(m, 0.5)["drive.torque"], 0.2, rtol=1e-6)

@@ -47,8 +47,7 @@ typedef struct zd_measure {
 /* Constant forces and torques along measures of positions or velocities, besides the forces of the system, which do not contain them */
 typedef struct zd_efforts {
     int count;
-    const int *along;       /* (count, 2) index and component of a measure */
-    const int *joint;       /* (count,) joint whose reaction includes it, as along the joint's coordinate; -1: none */
+    const int *along;       /* (count, 3) index and component of a measure, and the joint whose coordinate that is, -1: none */
     const double *effort;   /* (count,) N or N m, conjugate to its rate */
 } zd_efforts;
 

@@ -11,8 +11,9 @@ static void add_row(const zd_actions *self, const zd_relation *row, const double
 /* Adds the effort of index i along a measure. */
 static void add_effort(const zd_actions *self, const zd_efforts *efforts, int i)
 {
-    const zd_output_spec *along = self->elements->output + efforts->along[2 * i];
-    self->add(self->readings, self->to, along->index + efforts->along[2 * i + 1], along->scale * efforts->effort[i]);
+    const int *number = efforts->along + 3 * i;
+    const zd_output_spec *along = self->elements->output + number[0];
+    self->add(self->readings, self->to, along->index + number[1], along->scale * efforts->effort[i]);
 }
 
 int zd_rows_act(const zd_actions *self, const zd_measured_state *at)
@@ -43,7 +44,7 @@ int zd_drives_act(const zd_actions *self, int joint, const zd_measured_state *at
     const double t = at->t;
     double value;
     for (int i = 0; i < efforts->count; i++)
-        if (efforts->joint[i] == joint) add_effort(self, efforts, i);
+        if (efforts->along[3 * i + 2] == joint) add_effort(self, efforts, i);
     for (int i = 0; !at->is_of_constraints && i < elements->forces; i++) {
         if (elements->force[i].joint != joint) continue;
         const int status = zd_force_evaluate(elements, self->readings, elements->force + i, t, &value, NULL);

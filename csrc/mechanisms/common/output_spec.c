@@ -55,7 +55,7 @@ int zd_drive_force(const zd_planned_elements *elements, const zd_readings *at, i
 {
     zd_combined all;
     const int row = elements->constraint_of_relation[relation], status = zd_combine(elements, at, elements->row + row, t, &all);
-    *force = status ? 0 : -lambda[row] * all.factors[term];
+    *force = status ? 0 : -lambda[row] * (term < elements->row[row].terms ? all.factors[term] : 1);
     return status;
 }
 

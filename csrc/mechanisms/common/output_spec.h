@@ -45,7 +45,8 @@ void zd_output_list(const zd_planned_elements *elements, int count, int of_force
 int zd_output_is_available(const zd_planned_elements *elements, const zd_output_spec *measure, const double *vdot, const double *lambda);
 /* value <- a measure of a generalized force: its value, or its power. */
 int zd_output_force(const zd_planned_elements *elements, const zd_readings *at, const zd_output_spec *measure, double t, double *value);
-/* force <- constraint force of a relation along the marker quantity of one of its terms, positive where it drives that quantity up. */
+/* force <- constraint force of a relation along the marker quantity of one of its terms, or along its value if `term` is their number;
+ * positive where it drives that up. */
 int zd_drive_force(const zd_planned_elements *elements, const zd_readings *at, int relation, int term, double t, const double *lambda,
                     double *force);
 /* value <- a measure of a relation: this force, or its power. */

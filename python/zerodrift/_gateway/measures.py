@@ -27,11 +27,9 @@ class Named(NamedTuple):
 class Acting:
     """Efforts (k, n) at k states along n components of measures: index and component of each, and the joint it acts in, or -1."""
 
-    def __init__(self, along: Sequence[tuple[int, int]], joints: Sequence[int], efforts: np.ndarray) -> None:
-        self._along, self._joints = ffi.new("int[]", list(sum(along, ()))), ffi.new("int[]", joints)
-        self._efforts = np.ascontiguousarray(efforts)
-        self.c = ffi.new("zd_efforts[]", [(len(along), self._along, self._joints, doubles(each, each.size))
-                                          for each in self._efforts])
+    def __init__(self, along: Sequence[tuple[int, ...]], efforts: np.ndarray) -> None:
+        self._along, self._efforts = ffi.new("int[]", list(sum(along, ()))), np.ascontiguousarray(efforts)
+        self.c = ffi.new("zd_efforts[]", [(len(along), self._along, doubles(each, each.size)) for each in self._efforts])
 
 
 class Measuring:

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
 from ..errors import WrongName
 from ..systems.base import BaseSystem
 
@@ -41,7 +40,7 @@ class Kinematics:
 
     def __getitem__(self, given: Any) -> np.ndarray:
         name = getattr(given, "name", given)
-        if self.system._watching.find(name) is not None and isinstance(name, str) and name.rpartition(".")[2] in FORCES:
+        if self.system._watching.unit(name) in UNITS_OF_FORCES:
             raise WrongName(f"{name!r} needs forces, which kinematics does not have: zd.inverse_dynamics(system, kin) has them",
                             "not-available")
         return read(self.system, name, self.t, (self.p, self.v, self.vdot, np.zeros((len(self.t), self.system.m))))
@@ -52,7 +51,7 @@ class Kinematics:
                 f"{self.t[-1]:g} s{'' if self.success else f'; {len(self) - reached} beyond a dead point'}>")
 
 
-FORCES = ("force", "torque", "tension", "power")
+UNITS_OF_FORCES = ("N", "N m", "W")
 
 
 def read(system: BaseSystem, name: Any, t: np.ndarray, states: tuple[np.ndarray, ...],
@@ -69,10 +68,5 @@ def read(system: BaseSystem, name: Any, t: np.ndarray, states: tuple[np.ndarray,
             efforts = watching.acting(acting[0], acting[1][good]) if len(acting[0]) else None
             values[good] = watching.core.measure(place.number, np.ascontiguousarray(t[good]), *rows, acting=efforts)
         return place.pick(values)
-    for variables, values in zip((system.coordinates, system.velocities, system.constraints), (states[0], states[1], states[3]),
-                                 strict=True):
-        for i, variable in enumerate(variables):
-            if variable.name == name:
-                return values[:, i].copy()
-    raise WrongName(f"nothing in {system.name} is called {name!r}; {_check.closest(name, system._names_of_quantities())}",
-                    "wrong-name")
+    group, column = system._column(name)
+    return (states[0], states[1], states[3])[group][:, column].copy()

@@ -238,7 +238,8 @@ class BaseSystem(Defaults):
         found: dict[str, list[tuple[int, int]]] = {}
         for group, variables in enumerate((self.coordinates, self.velocities, self.constraints)):
             for column, variable in enumerate(variables):
-                found.setdefault(variable.name, []).append((group, column))
+                if group < 2 or self._effort_of(variable.name) is None:
+                    found.setdefault(variable.name, []).append((group, column))
         return found
 
     def _reading(self, name: str, what: str, *, is_dynamic: bool = False) -> Reading:
@@ -270,8 +271,19 @@ class BaseSystem(Defaults):
         """Names of all measures, coordinates, velocities and constraints."""
         return [*self._names_of_measures(), *self._columns_of]
 
+    def _column(self, name: Any) -> tuple[int, int]:
+        """Array, of p, v and the multipliers, and column of the variable of that name; KeyError if there is none, or several."""
+        found = self._columns_of.get(name, ()) if isinstance(name, str) else ()
+        if len(found) > 1:
+            raise WrongName(f"a name must be unique in {self.name}, but {name!r} names {len(found)} variables: take the entries "
+                            "of p, v or multipliers", "duplicate-name")
+        return found[0] if found else self._refuse_name(name)
+
     def _refuse_name(self, name: Any) -> NoReturn:
         """Raise the error of a name that no quantity has."""
+        if effort := self._effort_of(name):
+            raise WrongName(f"{name!r} names an element, whose effort is {effort!r}, and its constraint, whose multiplier is in "
+                            "multipliers and has the opposite sign, by (7)", "duplicate-name")
         if why := self._why_unknown(name):
             raise WrongName(why, "not-available")
         raise WrongName(f"nothing in {self.name} is called {name!r}; {_check.closest(name, self._names_of_quantities())}",
@@ -279,11 +291,11 @@ class BaseSystem(Defaults):
 
     def _unit_of_measure(self, name: str) -> str:
         """Unit of a measure, or of a component of it; "" if it has none."""
-        place = self._watching.find(name)
-        return "" if place is None else self._measuring.measures[place.number].unit
+        return self._watching.unit(name) or ""
 
-    def _is_scalar_measure(self, name: str) -> bool:
-        return name in self._watching.number and self._measuring.measure_size(self._watching.number[name]) == 1
+    def _effort_of(self, name: Any) -> str | None:
+        """Name of the scalar force or torque of the drive, coupling or constraint of that name, or None."""
+        return next((each for each in (f"{name}.force", f"{name}.torque") if self._watching.sizes.get(each) == 1), None)
 
     def _unique(self, name: Any, solution: Any, body: Any = None) -> Any:
         """Flags of the components of a measure that are equal for all admissible multipliers of redundant constraints."""

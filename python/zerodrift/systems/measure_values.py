@@ -87,12 +87,11 @@ class Watching:
 
     def acting(self, names: Iterable[str], efforts: np.ndarray) -> Acting:
         """Efforts (k, n) along quantities. Those along coordinates that are not measures act in no reaction."""
-        along: list[tuple[int, int]] = []
+        along: list[tuple[int, ...] | None] = []
         for place in map(self.find, names):
             size = 1 if place is None or place.component is not None else self._measures[place.number].size
-            along += [(place.number, place.component or i) if place else (-1, i) for i in range(size)]
-        used = [i for i, (number, _) in enumerate(along) if number >= 0]
-        return Acting([along[i] for i in used], [self.core.joint_of(along[i][0]) for i in used], efforts[:, used])
+            along += [place and (place.number, place.component or i, self.core.joint_of(place.number)) for i in range(size)]
+        return Acting(list(filter(None, along)), efforts[:, [each is not None for each in along]])
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Watching, (self.core,)       # what is known of solutions is found again

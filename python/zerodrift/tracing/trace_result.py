@@ -89,7 +89,7 @@ class Trace:
         >>> turn["rocker.angle"].shape, turn["P.position"].shape
         ((361,), (361, 2))
         """
-        place, core = self._find(name, self.system._watching.view), self.system._measuring
+        place, core = self._find(name), self.system._measuring
         zeros = np.zeros((len(self), core.nv))
         return place.pick(core.measure(place.number, np.zeros(len(self)), self.p, zeros))
 
@@ -128,10 +128,10 @@ class Trace:
         """The unit of a measure of positions."""
         return self.system._measuring.measures[self._find(name).number].unit
 
-    def _find(self, name: Any, find: Any = None) -> Any:
+    def _find(self, name: Any) -> Any:
         """Index and component of a measure of positions."""
         name, watching = name_of(name, "name"), self.system._watching
-        place = (find or watching.find)(name)
+        place = watching.find(name)
         if place is None:
             raise WrongName(f"nothing in {self.system.name} is called {name!r}; {_check.closest(name, watching.number)}",
                             "wrong-name")

@@ -49,7 +49,7 @@ def test_generalized_forces_are_of_what_there_is(room, force):
     measure("values", 3), measure("values", 0, 4), measure("rates", 0, 0), *(measure(f"joint {what}", 0)
                                                                             for what in ("force", "torque", "tension")),
     *(measure(quantity, 1) for quantity in ("force value", "force power", "force sum", "drive", "drive power")),
-    measure("force sum", 0, 2), measure("drive", 0, term=1)])
+    measure("force sum", 0, 2), measure("drive", 0, term=2)])
 def test_measures_are_of_what_there_is(room, wrong):
     with refused("wrong-value", "measure it: the entries that it measures must exist"):
         core(room, forces=[GeneralizedForce("constant", 0)], relations=[Relation([0])], **wrong)

@@ -10,6 +10,7 @@ from ...errors import WrongType, WrongValue
 from ..elements.joints import Coupling, Joint
 from ..elements.measures import Measure, name_of
 from ..elements.user_functions import Law
+from ..equations.measure_names import reading
 from .periodic_spline import PeriodicSpline
 from .registry import Elements
 
@@ -93,9 +94,14 @@ class CouplingVerbs(Elements):
         ratio = _check.number(f"ratio of {name!r}", ratio)
         if not ratio:
             raise WrongValue(f"ratio of {name!r} must not be 0", "out-of-range")
-        return self._add(Coupling(name, kind, tuple(
+        return self._couple(name, kind, tuple(
             f"{joint.name}.{joint.coordinate or given[1][0]}" for joint, given in zip(joints, (first, second), strict=True)),
-            ratio=ratio))
+            ratio=ratio)
+
+    def _couple(self, name: str, kind: str, of: tuple[str, ...], **how: Any) -> Coupling:
+        """Add a coupling of measures; its effort is a torque if all of them are angles or rates of angles."""
+        bases = [base.partition(".")[2] for each in of for base in reading(each, self._elements).quantities]
+        return self._add(Coupling(name, kind, of, "torque" if all("ang" in base for base in bases) else "force", **how))
 
     def coupler(self, name: str, value: Any, *, of: Mapping[str, Any] | None = None) -> Coupling:
         """Couple measures of positions by any function of them that has to be zero; the same as `constraint`, said of joints.
@@ -124,10 +130,9 @@ class CouplingVerbs(Elements):
         Notes
         -----
         The coupler acts along its measures: along the coordinate of a joint between the two bodies of that joint. Its effort is
-        its own measure, ``cage.torque`` in N m where the second of the measures (here ``pin1.angle``) is an angle, else
-        ``cage.force`` in N. It is that on the second of them, positive where it drives it up; on any other it is multiplied by
-        the derivative of `value` to that one over the derivative to the second. `force` and `torque` of joints leave it out, and
-        side loads, as of teeth on bearings, are not modelled.
+        its own measure, ``cage.torque`` in N m if all of its measures are angles, else ``cage.force`` in N, for a `value` in m.
+        It is positive where it drives `value` up, and acts on each measure times the derivative of `value` with respect to that.
+        `force` and `torque` of joints leave it out, and side loads, as of teeth on bearings, are not modelled.
         """
         name = self._new_name(name, "coupler")
         if isinstance(value, Mapping):
@@ -214,6 +219,10 @@ class CouplingVerbs(Elements):
         >>> bead = m.particle("bead", 0.1, at=(1, 1))
         >>> m.constraint("wire", lambda x, y: y - x**2, of={"x": bead.position.x, "y": bead.position.y})
         <constraint wire: bead.position.x, bead.position.y>
+
+        Notes
+        -----
+        Its effort is a measure, here ``wire.force``, as that of a `coupler`.
         """
         return self._by_law(self._new_name(name, "constraint"), "constraint", value, of)
 
@@ -242,6 +251,10 @@ class CouplingVerbs(Elements):
         >>> m.nonholonomic("blade", lambda a, u, v: u * np.sin(a) - v * np.cos(a),
         ...                of={"a": sleigh.angle, "u": sleigh.velocity.x, "v": sleigh.velocity.y})
         <nonholonomic blade: sleigh.angle, sleigh.velocity.x, sleigh.velocity.y>
+
+        Notes
+        -----
+        Its effort is a measure, here ``blade.force``, as that of a `coupler`: on each velocity it acts times the factor of that.
         """
         return self._by_law(self._new_name(name, "nonholonomic constraint"), "nonholonomic", value, of)
 
@@ -249,7 +262,7 @@ class CouplingVerbs(Elements):
         law = self._law(f"{kind} {name!r}", value, of, positions=kind != "nonholonomic")
         if not law.measures:
             raise WrongValue(f"{kind} {name!r} depends on no measure: bind some, of={{'x': body.position.x}}", "missing-argument")
-        return self._add(Coupling(name, kind, law.measures, law=law))
+        return self._couple(name, kind, law.measures, law=law)
 
 
 class _Sum:

@@ -140,8 +140,8 @@ def _measures(row: JointKind) -> dict[str, str]:
     return found
 
 
-FIRST_TORQUE = ("The moment on the first body through the joint, about the first's point, in N m. `torque` is about the second's point, "
-                "which slides along: the two differ by the moment of the force.")
+FIRST_TORQUE = ("The moment on the first body through the joint, about the first's point, in N m; `torque` is about the "
+                "second's point, which slides.")
 PLACE = {"position": "Position of the joint, that of the second's point, in the drawing's axes, in m.",
          "velocity": "The velocity of that point, in the drawing's axes, in m/s."}
 TRANSMISSION = "The angle between the lines of its two links, in rad, where there is one: `zerodrift.transmission_angle`."
@@ -260,31 +260,31 @@ class Coupling(Fixed):
     -----
     A coupling acts along the measures that it couples: along the coordinate of a joint between the two bodies of that joint,
     with opposite signs. It is an element of its own, as a spring is: `force` and `torque` of joints leave it out, and its effort
-    is its own measure, `force` or `torque` by the unit of the second of these measures, positive where it drives that one up.
+    is its own measure: `torque` in N m if all of these measures are angles or their rates, else `force` in N, for a value in m or
+    m/s. It is positive where it drives the value that is constrained up, and acts on each measure times the derivative of the
+    value with respect to that; the value of gears, racks and cams is the second measure less what prescribes it.
     For every body, joints, springs, forces and couplings together are mass times acceleration. The force between teeth
     across these coordinates (the load with which gears push their shafts apart and aside) is not modelled.
     """
 
-    def __init__(self, name: str, kind: str, of: tuple[str, ...], *, ratio: float | None = None, law: Law | None = None) -> None:
+    def __init__(self, name: str, kind: str, of: tuple[str, ...], effort: str, *, ratio: float | None = None,
+                 law: Law | None = None) -> None:
         self.name, self.kind, self.of, self.ratio, self.law = name, kind, of, ratio, law
+        self._along_value = effort      # "torque" or "force"
 
     @property
-    def efforts(self) -> dict[str, int]:
-        """Measures of its generalized force: the index in `of` of the measure along which each acts."""
-        if self.kind in ("constraint", "nonholonomic"):
-            return {}
-        last = min(1, len(self.of) - 1)
-        effort = {_effort_along(self.of[last]): last}
-        return {**effort, "cam_torque": 0} if self.kind == "cam" else effort
+    def efforts(self) -> tuple[str, ...]:
+        """Measures of its generalized force: that along the value, and of a cam that along its angle."""
+        return (self._along_value, "cam_torque") if self.kind == "cam" else (self._along_value,)
 
     @property
     def force(self) -> Measure:
-        """Force in N along the second measure, if that is in m; positive if it increases the measure."""
+        """Force in N along the value that is constrained, a length or a velocity; positive if it increases the value."""
         return self._effort("force")
 
     @property
     def torque(self) -> Measure:
-        """Torque in N m along the second measure, if that is in rad; positive if it increases the measure."""
+        """Torque in N m along the value that is constrained, an angle or its rate; positive if it increases the value."""
         return self._effort("torque")
 
     @property
@@ -294,8 +294,8 @@ class Coupling(Fixed):
 
     def _effort(self, effort: str) -> Measure:
         if effort not in self.efforts:
-            known = ", ".join(self.efforts) or "no measure but its multiplier"
-            raise WrongAttribute(f"{self.kind} {self.name!r} of {', '.join(self.of)} has no {effort}; it has {known}")
+            raise WrongAttribute(f"{self.kind} {self.name!r} of {', '.join(self.of)} has no {effort}; it has "
+                                 f"{', '.join(self.efforts)}")
         return Measure(f"{self.name}.{effort}")
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
@@ -304,8 +304,3 @@ class Coupling(Fixed):
 
     def __repr__(self) -> str:
         return f"<{self.kind} {self.name}: {', '.join(self.of)}>"
-
-
-def _effort_along(measure: str) -> str:
-    """Kind of the generalized force along a measure: torque along an angle, force along a length."""
-    return "torque" if measure.endswith(".angle") else "force"

@@ -282,7 +282,7 @@ class Tables:
             quantities = [self._quantity_of(name) for name in coupling.of]
             ratio = self.numbers(coupling, "ratio", coupling.ratio)
             self._relation(coupling.name, entries.Relation(quantities, [-ratio, 1.0]))
-            self._observe_coupling(coupling, [0, 1])
+            self._observe_coupling(coupling, 2)
             return
         quantities, picks = self._inputs(coupling.of)
         nonholonomic = coupling.kind == "nonholonomic"
@@ -290,13 +290,13 @@ class Tables:
         if nonholonomic:
             row.check_linear(len(quantities))
         self._relation(coupling.name, entries.Relation(quantities, nonholonomic=nonholonomic, law=self.laws.add(row)))
-        self._observe_coupling(coupling, [quantity for quantity, _ in picks])
+        self._observe_coupling(coupling, len(quantities))
 
-    def _observe_coupling(self, coupling: Coupling, terms: Sequence[int]) -> None:
-        """Add the forces of the last relation as measures: `terms` are the indices of the coupled measures."""
-        for effort, of in coupling.efforts.items():
+    def _observe_coupling(self, coupling: Coupling, terms: int) -> None:
+        """Add the efforts of the last relation as measures: that along its value, and that of a cam along its first term."""
+        for effort, term in zip(coupling.efforts, (terms, 0), strict=False):
             unit = "N m" if effort.endswith("torque") else "N"
-            self.observed.append(OutputSpec(f"{coupling.name}.{effort}", unit, "drive", len(self.relations) - 1, term=terms[of]))
+            self.observed.append(OutputSpec(f"{coupling.name}.{effort}", unit, "drive", len(self.relations) - 1, term=term))
 
     # ---- forces ----
 

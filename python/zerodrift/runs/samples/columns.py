@@ -19,21 +19,18 @@ AXES = "xyz"
 def columns(solution: Any, names: Any = None) -> list[tuple[Variable, np.ndarray]]:
     """Coordinates, velocities, multipliers and measures by name, a component each; left out: all but measures.
 
+    A multiplier of an element, whose effort has the opposite sign, is "multiplier of" its name.
+
     Raises
     ------
     KeyError
         If nothing has a name.
     """
     if names is None:
-        return [(_told_apart(solution, variable), array[:, i])
-                for array, variables in solution._named() for i, variable in enumerate(variables)]
+        return [(Variable(f"multiplier of {name}" if solution.system._effort_of(name) else name, unit), array[:, i])
+                for array, variables in solution._named() for i, (name, unit) in enumerate(variables)]
     names = [names] if isinstance(names, str) or not isinstance(names, Sequence) else names
     return [column for name in names for column in _components(solution, getattr(name, "name", name))]
-
-
-def _told_apart(solution: Any, variable: Variable) -> Variable:
-    """The variable, or that of a multiplier which has the name of an element, whose force has the opposite sign."""
-    return Variable(f"multiplier of {variable.name}", variable.unit) if solution._force_of(variable.name) else variable
 
 
 def _components(solution: Any, name: str) -> list[tuple[Variable, np.ndarray]]:

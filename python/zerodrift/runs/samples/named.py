@@ -56,27 +56,8 @@ class Named:
             measured = self.system._watching.values(name, self)
         if measured is not None:
             return measured
-        groups = [array for array, _ in self._named()]
-        columns = [groups[group][:, column] for group, column in self.system._columns_of.get(name, ())]
-        if len(columns) == 1:
-            self._check_sign(name)
-            return columns[0]
-        if columns:
-            raise WrongName(f"a name must be unique in {self.system.name}, but {name!r} names {len(columns)} variables: "
-                           "take the column of p, v or multipliers", "duplicate-name")
-        self.system._refuse_name(name)
-
-    def _check_sign(self, name: str) -> None:
-        """Raise KeyError for the multiplier of a drive or coupling by the element's name: its force has the opposite sign."""
-        if measure := self._force_of(name):
-            quantity = measure.rpartition(".")[2]
-            raise WrongName(f"{name!r} names an element, whose {quantity} is sol[{measure!r}], and a constraint, whose "
-                            "multiplier is in sol.multipliers and has the opposite sign, by (7)", "duplicate-name")
-
-    def _force_of(self, name: str) -> str | None:
-        """Name of the scalar force or torque of the drive or coupling of that name, or None."""
-        measures = (f"{name}.{quantity}" for quantity in ("force", "torque"))
-        return next((measure for measure in measures if self.system._is_scalar_measure(measure)), None)
+        group, column = self.system._column(name)
+        return (self.p, self.v, self.multipliers)[group][:, column]
 
     def _in_axes_of(self, name: Any, body: Any) -> np.ndarray:
         """Values of a vector measure in the axes of a body."""
@@ -87,11 +68,7 @@ class Named:
         values = self[name]
         if values.ndim == 1 or body == "ground":
             return values
-        if values.shape[1:] == (3,):
-            return np.einsum("kji,kj->ki", self[f"{body}.rotation"], values)
-        angle = self[f"{body}.angle"]
-        c, s = np.cos(angle), np.sin(angle)
-        return np.column_stack([c * values[:, 0] + s * values[:, 1], c * values[:, 1] - s * values[:, 0]])
+        return np.einsum("kij,kj->ki", self._axes_of(body, values.shape[1]), values)
 
     def _axes_of(self, body: str, size: int) -> np.ndarray:
         """Unit vectors along the axes of a body at each sample, as rows of (k, size, size)."""

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ... import _check
-from ...errors import WrongName, WrongType, WrongValue
+from ...errors import WrongType, WrongValue
 from ...systems.base import BaseSystem, Makes, core_of, system_of
 from .operations import acceleration, project
 
@@ -36,11 +36,8 @@ class Reading:
             states = self._state_for(place.number)
             value = place.pick(of._watching.core.measure(place.number, *states, is_least=True, acting=self._acting))[0]
             return float(value) if np.ndim(value) == 0 else value
-        if found := isinstance(name, str) and of._columns_of.get(name):
-            group, column = found[0]
-            return float(getattr(self, ("p", "v", "multipliers")[group])[column])
-        raise WrongName(f"nothing in {of.name} is called {name!r}; {_check.closest(name, of._names_of_quantities())}",
-                        "wrong-name")
+        group, column = of._column(name)
+        return float(getattr(self, ("p", "v", "multipliers")[group])[column])
 
     def _state_for(self, number: int) -> list[np.ndarray]:
         """Arguments of a measure, (1, ...) each: accelerations and least multipliers for one that depends on them."""

@@ -6,9 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ... import _gateway
-from ...errors import WrongName
 from ...systems.base import BaseSystem
-from ...systems.measure_values import Place
 
 
 class Reading:
@@ -38,17 +36,8 @@ class Reading:
     def _found(self, name: Any) -> Callable[[], Any]:
         system = self._system
         if (place := system._watching.view(name)) is not None:
-            return self._measure(place)
-        found = system._columns_of.get(name, ()) if isinstance(name, str) else ()
-        if len(found) == 1:
-            (group, column), core = found[0], self._core
-            return (lambda: float(core.accelerations()[1][column])) if group == 2 else core.entry(group, column)
-        if found:
-            raise WrongName(f"a name must be unique in {system.name}, but {name!r} names {len(found)} variables: take the "
-                           "entry of p, v or multipliers", "duplicate-name")
-        system._refuse_name(name)
-
-    def _measure(self, place: Place) -> Callable[[], Any]:
-        self._measured = self._measured or self._of.measured
-        read = self._core.measure(self._measured, place.number, place.component)
-        return read if place.form is None else lambda: place.pick(read()[None])[0]
+            self._measured = self._measured or self._of.measured
+            read = self._core.measure(self._measured, place.number, place.component)
+            return read if place.form is None else lambda: place.pick(read()[None])[0]
+        (group, column), core = system._column(name), self._core
+        return (lambda: float(core.accelerations()[1][column])) if group == 2 else core.entry(group, column)
