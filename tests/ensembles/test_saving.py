@@ -112,7 +112,7 @@ def test_pandas_has_all_of_it():
     assert list(table) == ["crank.mass", "rocker.mass", "crank.angle", "C.force.x", "C.force.y"]
     assert table["C.force.y"][5, 0.25] == gridded["C.force.y"][5, 1]
     assert ragged.to_pandas().groupby(level="run").size().to_dict() == {0: len(ragged[0].t), 2: len(ragged[2].t)}
-    for reduce, column in ((lowest, "value"), (lambda sol: np.ones(2), "value.1"), (lambda sol: "text", "value")):
+    for reduce, column in ((lowest, "value"), (lambda sol: np.ones(2), "value[1]"), (lambda sol: "text", "value")):
         table = zd.ensemble(pendulum, 0.1, parameters={"length": [1.0, 0.0]}, step=0.01, reduce=reduce).to_pandas()
         assert {"length", column, "failed", "message"} <= set(table)
         assert table["failed"].tolist() == [False, True]

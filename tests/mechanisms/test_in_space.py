@@ -305,6 +305,19 @@ def test_orientations_at_rest_and_in_ensembles():
         assert_close(found, np.broadcast_to(TILTED, (2, 3, 3, 3)), 1e-9, scale=1.0)
 
 
+def test_entries_without_axes_have_numbers_in_all_tables(tmp_path):
+    m = zd.Mechanism("hung", dimension=3)
+    m.body("hung", 1.0, (1.0, 1.0, 1.0), rotation=TILTED)
+    names = [f"hung.rotation[{i}, {j}]" for i in range(3) for j in range(3)]
+    sol = zd.simulate(m, 0.1, step=0.1)
+    assert sol.to_csv(tmp_path / "hung.csv", ["hung.rotation"]).read_text().splitlines()[0] == "t [s]," + ",".join(
+        f'"{name}"' for name in names)
+    ens = zd.ensemble(m, 0.1, v0=np.zeros((2, 6)), step=0.1, outputs=["hung.rotation", "hung.position"])
+    table = pytest.importorskip("pandas") and ens.to_pandas()
+    assert list(table.columns) == [*names, *(f"hung.position.{axis}" for axis in "xyz")]
+    assert_close(table[names].to_numpy(), np.broadcast_to(TILTED.ravel(), (4, 9)), 1e-12)
+
+
 def test_a_system_keeps_its_names():
     system = heavy_top().system("absolute")
     again = pickle.loads(pickle.dumps(system))

@@ -40,7 +40,7 @@ class Kinematics:
 
     def __getitem__(self, given: Any) -> np.ndarray:
         name = getattr(given, "name", given)
-        if self.system._watching.unit(name) in UNITS_OF_FORCES:
+        if self.system._watching.unit(name) in ("N", "N m", "W"):
             raise WrongName(f"{name!r} needs forces, which kinematics does not have: zd.inverse_dynamics(system, kin) has them",
                             "not-available")
         return read(self.system, name, self.t, (self.p, self.v, self.vdot, np.zeros((len(self.t), self.system.m))))
@@ -49,9 +49,6 @@ class Kinematics:
         reached = int(np.isfinite(self.p).all(axis=1).sum())
         return (f"<motion of {self.system.name} by {', '.join(self.prescribed)}: {len(self)} samples, t = {self.t[0]:g} ... "
                 f"{self.t[-1]:g} s{'' if self.success else f'; {len(self) - reached} beyond a dead point'}>")
-
-
-UNITS_OF_FORCES = ("N", "N m", "W")
 
 
 def read(system: BaseSystem, name: Any, t: np.ndarray, states: tuple[np.ndarray, ...],

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..runs.samples.columns import imported
-from ..systems.measure_values import AXES
+from ..systems.measure_values import AXES, component_names
 from .part import Part
 
 # ---- xarray ----
@@ -23,7 +23,7 @@ def to_xarray(ens: Any, units: dict[str, str], part: Part) -> Any:
         columns["t"] = _padded(list(part.times()))
     else:
         coordinates["t"] = ("t", ens.t, {"units": "s"})
-    variables = {name: _variable(ens, over, array, [time, *["component"] * (array.ndim - 2)], units.get(name, ""))
+    variables = {name: _variable(ens, over, array, [time, *("component", "column")[:array.ndim - 2]], units.get(name, ""))
                  for name, array in columns.items()}
     variables["failed"] = _variable(ens, over, ens.failed, [], "")
     variables["message"] = _variable(ens, over, np.array(ens.messages, dtype=object), [], "")
@@ -77,15 +77,12 @@ def to_pandas(ens: Any, part: Part) -> Any:
         return pandas.DataFrame({**parameters, **values, "failed": ens.failed, "message": list(ens.messages)}).rename_axis("run")
     run = np.repeat(np.arange(len(ens)), part.rows)
     index = pandas.MultiIndex.from_arrays([run, np.concatenate(list(part.times()))], names=["run", "t"])
-    outputs = _columns(part.arrays, list(AXES))
+    outputs = _columns(part.arrays, has_axes=True)
     return pandas.DataFrame({**{name: each[run] for name, each in parameters.items()}, **outputs}, index=index)
 
 
-def _columns(arrays: dict[str, np.ndarray], axes: list[str] | None = None) -> dict[str, np.ndarray]:
-    """Columns of an array: one, or one for each component, named by axes or by numbers."""
-    found = {}
-    for name, array in arrays.items():
-        flat = array.reshape(len(array), -1)
-        labels = [""] if array.ndim == 1 else [f".{each}" for each in axes or range(flat.shape[1])]
-        found |= {f"{name}{label}": column for label, column in zip(labels, flat.T, strict=False)}
-    return found
+def _columns(arrays: dict[str, np.ndarray], *, has_axes: bool = False) -> dict[str, np.ndarray]:
+    """Columns of an array: one, or one for each component."""
+    return {each: column for name, array in arrays.items()
+            for each, column in zip(component_names(name, array.shape[1:], has_axes=has_axes),
+                                    array.reshape(len(array), -1).T, strict=True)}

@@ -166,9 +166,7 @@ def _check_options(system: BaseSystem, span: tuple[float, float], options: dict[
 def _row_bytes(system: BaseSystem, names: list[str], *, keeps: bool) -> Iterator[int]:
     """Bytes of one sample of each output, and of a kept solution."""
     for name in names:
-        place = system._watching.find(name)
-        is_one = place is None or place.component is not None
-        yield 8 if is_one else 8 * system._watching.core.measure_size(place.number)
+        yield 8 * system._watching.sizes.get(name, 1)
     if keeps:
         yield _gateway.row_bytes(core_of(system), None)
 

@@ -11,9 +11,12 @@ from pathlib import Path
 from typing import Any, NamedTuple
 from xml.sax.saxutils import quoteattr
 
+import numpy as np
+
 from .. import _check, _gateway
 from .._gateway.mechanisms import blocks
 from .._writing import with_suffix, write_atomically
+from ..systems.measure_values import component_names
 from .block import Chosen, choose, written
 from .c_source import core_of, data
 from .core_files import CoreFiles
@@ -59,7 +62,7 @@ def fmu(system: Any, path: str | Path, *, step: float, inputs: Sequence[str] = (
         Forces, torques and speeds that are set from outside, such as ``"motor.torque"``; they must be given as numbers, which are
         their initial values. Forces are constant within a step of the importer; speeds are followed linearly over one step.
     outputs : list of measures or names
-        Measures to read, vectors component by component: ``"pin.force[1]"``.
+        Measures to read, vectors as a variable for each component: ``"pin.force.x"``, ``"pin.force.y"``.
     events : Event or measure, or a list of these, optional
         Measures, coordinates or velocities that reach a value. Where the importer allows it (``earlyReturnAllowed``), a step
         returns early at each of them, with its instant as ``lastSuccessfulTime``. A terminal one requests the end of the
@@ -141,13 +144,12 @@ def _packed(made: Chosen, identifier: str, version: str, platforms: Sequence[str
 def _scalars(made: Chosen) -> list[Scalar]:
     """Inputs and outputs with their value references; 0 is time."""
     core = blocks.BlockCore(written(made))
-    watching, measures = made.system._watching, {measure.name: measure for measure in made.system._watching.core.measures}
+    watching = made.system._watching
     found = [Scalar(i, name, "input", core.input_unit(name), value) for i, (name, value) in enumerate(core.inputs.items(), 1)]
     for name in made.outputs or ():
-        size = watching.core.measure_size(watching.number[name])
-        for component in range(size):
-            label = name if size == 1 else f"{name}[{component + 1}]"
-            found.append(Scalar(len(found) + 1, label, "output", measures[name].unit, 0.0))
+        shape = watching.find(name).pick(np.zeros((1, watching.sizes[name]))).shape[1:]
+        found += [Scalar(i, each, "output", watching.unit(name), 0.0)
+                  for i, each in enumerate(component_names(name, shape), len(found) + 1)]
     return found
 
 
@@ -157,7 +159,7 @@ def _quoted(name: str) -> str:
 
 
 def _part(part: str) -> str:
-    if re.fullmatch(r"[A-Za-z_]\w*(\[\d+\])?", part, re.ASCII):
+    if re.fullmatch(r"[A-Za-z_]\w*", part, re.ASCII):
         return part
     escaped = part.replace("\\", "\\\\").replace("'", "\\'")
     return f"'{escaped}'"

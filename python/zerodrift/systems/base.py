@@ -297,12 +297,6 @@ class BaseSystem(Defaults):
         """Name of the scalar force or torque of the drive, coupling or constraint of that name, or None."""
         return next((each for each in (f"{name}.force", f"{name}.torque") if self._watching.sizes.get(each) == 1), None)
 
-    def _unique(self, name: Any, solution: Any, body: Any = None) -> Any:
-        """Flags of the components of a measure that are equal for all admissible multipliers of redundant constraints."""
-        if not self._watching.number:
-            raise WrongName(f"measures need a mechanism, and {self.name} is not one", "not-available")
-        return self._watching.unique(getattr(name, "name", name), solution, getattr(body, "name", body))
-
     def _described(self) -> dict[str, Any]:
         """Description of the system in a saved solution, as JSON."""
         return {"name": self.name, "coordinates": self.coordinates, "velocities": self.velocities,

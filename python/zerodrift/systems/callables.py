@@ -14,6 +14,7 @@ from .._gateway.inputs import Bound, Place
 from ..errors import WrongType, WrongValue
 from .base import BaseSystem
 from .defaults import WithInputs
+from .measure_values import component_names
 from .structure import Structure, checked
 from .user_callables import Function
 from .variables import quaternion_places, with_units
@@ -192,8 +193,7 @@ def _is_array(value: Any) -> bool:
 
 def _entries(name: str, array: np.ndarray) -> np.ndarray:
     """Names of the entries of an array, in its shape."""
-    names = [f"{name}[{', '.join(map(str, index))}]" for index in np.ndindex(array.shape)]
-    return np.array(names, dtype=object).reshape(array.shape)
+    return np.array(component_names(name, array.shape, has_axes=False), dtype=object).reshape(array.shape)
 
 
 def _rebuild(kind: type[System], given: dict[str, Any]) -> System:

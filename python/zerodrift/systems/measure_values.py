@@ -63,6 +63,13 @@ def view(name: Any, sizes: Mapping[str, int]) -> Place | None:
     return rotation and rotation._replace(form=form)
 
 
+def component_names(name: str, shape: tuple[int, ...], *, has_axes: bool = True) -> list[str]:
+    """Names of the entries of a value: "pin.force.x" along axes, else "u[0]" and "K[0, 1]"; of a number, its own."""
+    if has_axes and len(shape) == 1 and shape[0] <= len(AXES):
+        return [f"{name}.{axis}" for axis in list(AXES)[:shape[0]]]
+    return [f"{name}[{', '.join(map(str, place))}]" if place else name for place in np.ndindex(shape)]
+
+
 class Watching:
     """Measures of a system by name, evaluated from solutions; `core` provides them, None if there are none."""
 
@@ -166,15 +173,14 @@ class Watching:
         found = self.find(name)
         if found is None:
             raise WrongName(f"nothing measured is called {name!r}; {_check.closest(name, self.number)}", "wrong-name")
-        number, component, _ = found
-        same = np.ones(self._measures[number].size, dtype=bool)
-        if self.core.measure_depends(number) == "accelerations" and self.core.m:
-            changes = self._evaluate(number, solution, "redundant")
+        same = np.ones(self._measures[found.number].size, dtype=bool)
+        if self.core.measure_depends(found.number) == "accelerations" and self.core.m:
+            changes = self._evaluate(found.number, solution, "redundant")
             if same.size > 1 and body not in (None, "ground"):
                 changes = solution._axes_of(body, same.size) @ changes
             same = _are_unique(changes).all(axis=0)
-        same = same if component is None else same[component : component + 1]
-        return bool(same[0]) if same.size == 1 else same
+        same = found.pick(same[None])[0]
+        return bool(same) if same.ndim == 0 else same
 
 
 def _are_unique(changes: np.ndarray) -> np.ndarray:

@@ -12,8 +12,7 @@ import numpy as np
 from ..._gateway import Variable
 from ..._writing import write_atomically
 from ...errors import MissingPackage
-
-AXES = "xyz"
+from ...systems.measure_values import component_names
 
 
 def columns(solution: Any, names: Any = None) -> list[tuple[Variable, np.ndarray]]:
@@ -35,13 +34,8 @@ def columns(solution: Any, names: Any = None) -> list[tuple[Variable, np.ndarray
 
 def _components(solution: Any, name: str) -> list[tuple[Variable, np.ndarray]]:
     values, unit = np.asarray(solution[name], dtype=float), unit_of(solution, name)
-    if values.ndim == 1:
-        return [(Variable(name, unit), values)]
-    if values.ndim == 2 and values.shape[1] <= len(AXES):
-        return [(Variable(f"{name}.{AXES[i]}", unit), values[:, i]) for i in range(values.shape[1])]
     entries = values.reshape(len(values), -1)
-    places = (", ".join(map(str, place)) for place in np.ndindex(values.shape[1:]))
-    return [(Variable(f"{name}[{place}]", unit), entries[:, i]) for i, place in enumerate(places)]
+    return [(Variable(each, unit), entries[:, i]) for i, each in enumerate(component_names(name, values.shape[1:]))]
 
 
 def unit_of(solution: Any, name: str) -> str:

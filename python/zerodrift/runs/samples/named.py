@@ -119,7 +119,8 @@ class Named:
         >>> zd.simulate(m, 0.1, step=0.01).unique(pin.force)
         array([ True,  True])
         """
-        return self.system._unique(name, self, body)
+        name, body = (getattr(each, "name", each) for each in (name, body))
+        return self.system._watching.unique(name, self, body)
 
     def _named(self) -> tuple[tuple[np.ndarray, tuple[_gateway.Variable, ...]], ...]:
         """Arrays with named columns, each with the variables of its columns."""
