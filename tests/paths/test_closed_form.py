@@ -364,7 +364,7 @@ def test_perturbed_systems_have_none():
     assert core.c.closed_forms == 0
 
 
-@pytest.mark.parametrize(("model", "why"), [("four_bar", True), ("planetary_gear", False), ("chain", False)])
+@pytest.mark.parametrize(("model", "why"), [("four_bar", True), ("chain", False)])
 def test_interpreted_tables_are_named(model, why):
     """A mechanism says that code may be generated for it, where that is known to pay."""
     reason = zd.simulate(getattr(zd.models, model)(), 1e-3, step=1e-3).stats["matrix_path_reason"]

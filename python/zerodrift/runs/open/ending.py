@@ -84,9 +84,9 @@ def _matrix_path_reason(system: BaseSystem, settings: dict[str, Any], stats: dic
         explicit = core_settings((0.0, 0.0), settings | {"integrator": EXPLICIT})
         table = "integrator" if _gateway.takes_closed_form(core, explicit) else "formulation"
         return f"{table} {name_of(f'{table}s', settings[table])!r} has none" + " for such a system" * (table == "formulation")
-    if stats["redundant"]:
-        return "some constraints are redundant"
-    return lacks or "the elimination order is unsuitable at every step"
+    if lacks:
+        return lacks
+    return "some constraints are redundant" if stats["redundant"] else "the elimination order is unsuitable at every step"
 
 
 def message_of(run: _gateway.Run, outcome: Outcome) -> str:
