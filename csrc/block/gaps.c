@@ -64,6 +64,10 @@ static int most_open(const gaps *self)
 
 static void name_joints(const gaps *self, zd_complaint to)
 {
+    if (self->open[most_open(self)] <= CLOSED * zd_block_length(self->block)) {
+        zd_append(&to, "the joints can all close, but not near this drawing: draw it as it is with closed joints");
+        return;
+    }
     zd_append(&to, "the joints cannot all close: nearest to it there stay open ");
     for (int i = 0; i < NAMED && i < zd_block_count(&self->block->layout, ZD_BLOCK_JOINTS); i++) {
         const int joint = most_open(self);
