@@ -433,12 +433,12 @@ def test_rows_that_all_but_vanish_in_a_stretched_drawing_do_not_violate():
 
 @pytest.mark.parametrize("layout", ["joint", "absolute"])
 def test_joints_that_close_elsewhere_are_not_said_to_stay_open(layout):
-    """Two equal cranks at 30 degrees below the horizontal carry a bar, and a third 30 degrees above it a point 1 m over the bar."""
+    """Two equal cranks at 30 degrees below the horizontal carry a bar, and a third 30 degrees above it a point 1 m over it."""
     m = zd.Mechanism("three cranks")
     cranks = [m.link(f"crank{i}", (i, 0), (i, 1), mass=1.0) for i in range(3)]
     bar = m.link("bar", (0, 1), (2, 1), mass=2.0)
     for i, (crank, side) in enumerate(zip(cranks, (bar.start, bar.point((1, 1)), bar.end), strict=True)):
         m.revolute(f"A{i}", m.ground, crank.start)
         m.revolute(f"B{i}", crank.end, side)
-    with pytest.raises(zd.CorrectionFailed, match="^the joints can all close, but not near this drawing: draw it"):
+    with pytest.raises(zd.CorrectionFailed, match=r"^the joints can all close, but not near this drawing: draw it"):
         m.system(layout).p0.copy()
