@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from zerodrift.systems.measure_values import find, view
 
 KINDS = ("position", "velocity", "acceleration")
 MODELS = {"plane": (zd.models.four_bar, "crank"), "space": (zd.models.delta_robot, "platform")}
@@ -103,3 +104,15 @@ def test_a_reset_run_is_a_new_one(quantity, value):
     runs.step(7), new.step(7)
     assert np.array_equal(runs.p[0], new.p[0])
     assert np.array_equal(runs["pin.speed"][0], new["pin.speed"][0])
+
+
+def test_a_name_is_found_without_a_search_of_all():
+    """The last of many measures is looked up, and none is compared with it."""
+    class Known(dict):
+        def __iter__(self):
+            raise AssertionError("all names are visited")
+
+    known = Known({f"link{i}.angle": (i, 1) for i in range(9)} | {"body.rotation": (9, 9)})
+    assert find("link8.angle", known).number == 8
+    assert view("body.quaternion", known).number == 9
+    assert find("nothing", known) is view("body.nothing", known) is None

@@ -92,7 +92,7 @@ class OpenRun(Run):
         pointer = (self.c_p, self.c_v)[group]
         return lambda: pointer[column]
 
-    def measure(self, of: CoreSystem, number: int, component: int | None) -> Callable[[], Any]:
+    def reader(self, of: CoreSystem, number: int, component: int | None) -> Callable[[], Any]:
         """Function that returns a measure of a system with the equations of the run, or a component of it, at the present state.
 
         The value is a float, or an array (size,).
@@ -125,7 +125,7 @@ class ManyOpenRuns:
     Parameters
     ----------
     runs : sequence of OpenRun
-    of : sequence
+    ready : sequence
         The attribute `measured` of each is the system that has its measures, which is needed when the first is read.
     parts : sequence of (int, int)
         Runs that one thread advances: the first one, and their number.
@@ -140,13 +140,13 @@ class ManyOpenRuns:
         SIMD lanes of each part; NULL: its runs are made one by one.
     """
 
-    def __init__(self, runs: Sequence[OpenRun], of: Sequence[Any], parts: Sequence[tuple[int, int]]) -> None:
+    def __init__(self, runs: Sequence[OpenRun], ready: Sequence[Any], parts: Sequence[tuple[int, int]]) -> None:
         self._runs, (nq, nv, _) = list(runs), runs[0].sizes
         count = len(runs)
         self.status, self.t = np.zeros(count, dtype=np.intc), np.empty(count)
         self.p, self.v = np.empty((count, nq)), np.empty((count, nv))
         self._pointers = ffi.new("zd_run *[]", [run.c for run in runs])
-        self._of, self._measured = list(of), []
+        self._ready, self._measured = list(ready), []
         self.c = ffi.new("zd_open_runs *", {
             "runs": count, "run": self._pointers, "status": ffi.from_buffer("int[]", self.status, require_writable=True),
             "t": doubles(self.t, count, writable=True), "p": doubles(self.p, self.p.size, writable=True),
@@ -171,11 +171,11 @@ class ManyOpenRuns:
             raise run.error(status)
         return run
 
-    def replace(self, i: int, run: OpenRun, of: Any) -> None:
+    def replace(self, i: int, run: OpenRun, ready: Any) -> None:
         """Replace one of the runs, and store its present state."""
-        self._of[i] = of
+        self._ready[i] = ready
         if self._measured:
-            self._measured[i] = of.measured
+            self._measured[i] = ready.measured
             self._systems[i] = self._measured[i].c
         self._runs[i], self._pointers[i], self.status[i] = run, run.c, 0
         if lanes := self._lanes_of(i):
@@ -186,7 +186,7 @@ class ManyOpenRuns:
     def measure(self, number: int) -> np.ndarray | None:
         """A measure at the present states: (runs, size). None: one run cannot evaluate it, and says why if it is read alone."""
         if not self._measured:
-            self._measured = [each.measured for each in self._of]
+            self._measured = [each.measured for each in self._ready]
             self._systems = ffi.new("const zd_system *[]", [each.c for each in self._measured])
         measures, (_, nv, m) = self._systems[0].measures, self._runs[0].sizes
         measure, scratch = measures.measure[number], ffi.new("double[]", measures.scratch + nv + m)

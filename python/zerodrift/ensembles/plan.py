@@ -166,7 +166,7 @@ def _check_options(system: BaseSystem, span: tuple[float, float], options: dict[
 def _row_bytes(system: BaseSystem, names: list[str], *, keeps: bool) -> Iterator[int]:
     """Bytes of one sample of each output, and of a kept solution."""
     for name in names:
-        yield 8 * system._watching.sizes.get(name, 1)
+        yield 8 * system._watching.known.get(name, (0, 1))[1]
     if keeps:
         yield _gateway.row_bytes(core_of(system), None)
 

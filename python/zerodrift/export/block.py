@@ -112,7 +112,7 @@ def choose(system: Any, p0: Any, v0: Any, t0: float, step: float | None, outputs
 
 def _measures(names: Sequence[str], system: MechanismSystem) -> tuple[str, ...]:
     """Names of whole measures, each once, in their order."""
-    known = list(system._watching.number)
+    known = list(system._watching.known)
     found = []
     for name in names:
         place = system._watching.find(name)

@@ -93,7 +93,7 @@ def core_of(made: Chosen, more: Sequence[str] = ()) -> CoreFiles:
 def data(made: Chosen) -> str:
     """Header with the block and its sizes."""
     system, words = made.system, np.frombuffer(written(made), "<u8")
-    sizes = [system._watching.core.measure_size(system._watching.number[name]) for name in made.outputs or ()]
+    sizes = [system._watching.known[name][1] for name in made.outputs or ()]
     counts = {"NQ": system.nq, "NV": system.nv, "M": system.m, "INPUTS": len(made.inputs), "OUTPUTS": sum(sizes)}
     names = " ".join(f"{name}[{size}]" if size > 1 else name for name, size in zip(made.outputs or (), sizes, strict=True))
     lines = [", ".join(f"0x{word:016x}" for word in words[i:i + 6]) for i in range(0, len(words), 6)]

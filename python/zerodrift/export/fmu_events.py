@@ -28,7 +28,7 @@ class Level(NamedTuple):
 
 def chosen_events(given: Any, system: BaseSystem, version: str) -> list[Level]:
     """Check the argument `events` of `fmu`."""
-    found, names = [], list(system._watching.number)
+    found, names = [], list(system._watching.known)
     for each in _events.events(given, system) or ():
         if each.known is None or each.known.function or each.known.readings[0].what not in SOURCES:
             raise WrongValue(f"{each.name} of an FMU must be a measure, coordinate or velocity that reaches a value, and not be "

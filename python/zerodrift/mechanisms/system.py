@@ -105,7 +105,7 @@ class MechanismSystem(Reported):
 
     @property
     def measures(self) -> tuple[str, ...]:
-        return tuple(self._watching.number)
+        return tuple(self._watching.known)
 
     def _plain_core(self, tables: Tables) -> MechanismCore:
         """Core system without measures, unless user functions read them."""

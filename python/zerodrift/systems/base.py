@@ -258,14 +258,14 @@ class BaseSystem(Defaults):
         if name in coordinates:
             return Reading(known_events.COORDINATE, coordinates.index(name))
         if name not in velocities:
-            known = _check.closest(name, [*coordinates, *velocities, *self._watching.number])
+            known = _check.closest(name, [*coordinates, *velocities, *self._watching.known])
             raise WrongValue(f"{what} must be a measure, a coordinate or a velocity of {self.name}, not {name!r}; {known}",
                              "unknown-choice")
         return Reading(known_events.VELOCITY, velocities.index(name))
 
     def _names_of_measures(self) -> list[str]:
         """Names of all measures."""
-        return list(self._watching.number)
+        return list(self._watching.known)
 
     def _names_of_quantities(self) -> list[str]:
         """Names of all measures, coordinates, velocities and constraints."""
@@ -295,7 +295,8 @@ class BaseSystem(Defaults):
 
     def _effort_of(self, name: Any) -> str | None:
         """Name of the scalar force or torque of the drive, coupling or constraint of that name, or None."""
-        return next((each for each in (f"{name}.force", f"{name}.torque") if self._watching.sizes.get(each) == 1), None)
+        known = self._watching.known
+        return next((each for each in (f"{name}.force", f"{name}.torque") if known.get(each, (0, 0))[1] == 1), None)
 
     def _described(self) -> dict[str, Any]:
         """Description of the system in a saved solution, as JSON."""

@@ -26,11 +26,6 @@ class Place(NamedTuple):
     component: int | None
     form: Callable[[np.ndarray], np.ndarray] | None = None
 
-    @property
-    def is_linear(self) -> bool:
-        """True if what is read is linear in the measure, so that each sample is read for itself."""
-        return self.form in (None, np.asarray)
-
     def pick(self, values: np.ndarray) -> np.ndarray:
         """Selected part of values (k, size): (k,) of a scalar or a component, (k, 3, 3) of a rotation, (k, size) of a vector."""
         if self.component is not None:
@@ -40,26 +35,27 @@ class Place(NamedTuple):
         return values[:, 0] if values.shape[1] == 1 else values
 
 
-def find(name: Any, sizes: Mapping[str, int]) -> Place | None:
-    """A measure or a component of one by its name, among measures with these sizes; None: there is none."""
+def find(name: Any, known: Mapping[str, tuple[int, int]]) -> Place | None:
+    """A measure or a component of one by its name, among known ones, index and size of each; None: there is none."""
     if not isinstance(name, str):
         return None
     base, _, axis = name.rpartition(".")
-    whole, component = (name, None) if name in sizes else (base, AXES.get(axis, -1))
-    if whole not in sizes or (component is not None and not 0 <= component < sizes[whole] in (2, 3)):
+    whole, component = (name, None) if name in known else (base, AXES.get(axis, -1))
+    number, size = known.get(whole, (-1, 0))
+    if number < 0 or (component is not None and not 0 <= component < size in (2, 3)):
         return None
-    return Place(list(sizes).index(whole), component, np.asarray if axis == "rotation" and component is None else None)
+    return Place(number, component, np.asarray if axis == "rotation" and component is None else None)
 
 
-def view(name: Any, sizes: Mapping[str, int]) -> Place | None:
+def view(name: Any, known: Mapping[str, tuple[int, int]]) -> Place | None:
     """As `find`; also "body.quaternion" and "body.euler.zyx", which are functions of "body.rotation"."""
-    if (found := find(name, sizes)) or not isinstance(name, str):
+    if (found := find(name, known)) or not isinstance(name, str):
         return found
     body, _, quantity = name.partition(".")
     word, _, order = quantity.partition(".")
     angles = partial(angles_of, order=order) if word == "euler" and is_order(order) else None
     form = quaternions_of if quantity == "quaternion" else angles
-    rotation = form and find(f"{body}.rotation", sizes)
+    rotation = form and find(f"{body}.rotation", known)
     return rotation and rotation._replace(form=form)
 
 
@@ -75,17 +71,16 @@ class Watching:
 
     def __init__(self, core: CoreSystem | None) -> None:
         self.core, self._measures = core, core.measures if core else ()
-        self.sizes = {measure.name: measure.size for measure in self._measures}
-        self.number = {name: i for i, name in enumerate(self.sizes)}
+        self.known = {measure.name: (i, measure.size) for i, measure in enumerate(self._measures)}
         self._accelerations: weakref.WeakKeyDictionary[Any, tuple[np.ndarray, np.ndarray]] = weakref.WeakKeyDictionary()
 
     def find(self, name: Any) -> Place | None:
         """Index of a measure or of a component by its name, or None."""
-        return find(name, self.sizes)
+        return find(name, self.known)
 
     def view(self, name: Any) -> Place | None:
         """Index of what is read by a name: of a measure, a component, or an orientation; or None."""
-        return view(name, self.sizes)
+        return view(name, self.known)
 
     def unit(self, name: str) -> str | None:
         """Unit of a measure or of a component by its name, or None."""

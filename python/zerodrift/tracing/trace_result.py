@@ -133,7 +133,7 @@ class Trace:
         name, watching = name_of(name, "name"), self.system._watching
         place = watching.find(name)
         if place is None:
-            raise WrongName(f"nothing in {self.system.name} is called {name!r}; {_check.closest(name, watching.number)}",
+            raise WrongName(f"nothing in {self.system.name} is called {name!r}; {_check.closest(name, watching.known)}",
                             "wrong-name")
         depends = self.system._measuring.measure_depends(place.number)
         if depends != "positions":
@@ -143,7 +143,7 @@ class Trace:
 
     def _ipython_key_completions_(self) -> list[str]:
         core = self.system._measuring
-        return [name for name, number in self.system._watching.number.items() if core.measure_depends(number) == "positions"]
+        return [name for name, (number, _) in self.system._watching.known.items() if core.measure_depends(number) == "positions"]
 
     def __repr__(self) -> str:
         dead = ", ".join(f"{point.value:.6g}" for point in self.dead_points)

@@ -63,9 +63,9 @@ def jumping(drawing: Drawing, watching: Watching, t: float, p: np.ndarray, v: np
     others = np.zeros((len(states[0]), watching.core.nv)), np.zeros((len(states[0]), watching.core.m))
     jumps: dict[str, float] = {}
     for element in drawing.of(WITH_LAWS):
-        for number in (watching.number.get(f"{element.name}.{quantity}") for quantity in ("force", "torque")):
-            if number is not None:
-                values = watching.core.measure(number, np.full(len(states[0]), t), *states, *others)
+        for place in (watching.find(f"{element.name}.{quantity}") for quantity in ("force", "torque")):
+            if place:
+                values = watching.core.measure(place.number, np.full(len(states[0]), t), *states, *others)
                 jumps[element.name] = max(_jump(values), jumps.get(element.name, 0.0))
     largest = max(jumps.values(), default=0.0)
     return " or ".join(repr(name) for name, jump in jumps.items() if jump > TAKES_PART * largest)

@@ -80,7 +80,7 @@ class Reported(BaseSystem):
         core = self._measuring
         core.names_of_constraints(self)
         driven = {each.name: driven_coordinate(each) for each in self._drawing.of((Motor, Actuator))}
-        measures = [self._watching.number.get(driven.get(each.name), -1) for each in self.constraints[:self.mh]]
+        measures = [self._watching.known.get(driven.get(each.name), (-1, 0))[0] for each in self.constraints[:self.mh]]
         return CoreAssembly(core, (), size_of(self._drawing, self._numbers), t).beyond_reach(p, measures, ahead)
 
     def _advice_on_collapse(self, t: float, p: np.ndarray, v: np.ndarray, velocity: int) -> str:

@@ -19,7 +19,8 @@ class Recorded:
         watching = system._watching
         places = [place for name in names if (place := watching.view(name)) is not None]
         numbers = list(dict.fromkeys(place.number for place in places))     # without duplicates
-        self.names = [list(watching.number)[number] for number in numbers]
+        known = list(watching.known)
+        self.names = [known[number] for number in numbers]
         self.core = _gateway.Outputs(numbers, measured or watching.core, core, is_own=measured is not None) if numbers else None
 
     def columns(self, rows: np.ndarray) -> dict[str, np.ndarray]:

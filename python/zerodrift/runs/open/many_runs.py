@@ -174,7 +174,9 @@ class ManyRuns:
             return self.inputs[:, self._places[name]].copy()
         place = self._ready[0].of._watching.view(name)
         if place and (values := self._core.measure(place.number)) is not None:
-            return place.pick(values) if place.is_linear else np.concatenate([place.pick(each) for each in values[:, None]])
+            if place.form in (None, np.asarray):
+                return place.pick(values)
+            return np.concatenate([place.pick(each) for each in values[:, None]])      # an orientation follows the sample before
         found = self.system._columns_of.get(name, ())
         if len(found) == 1 and found[0][0] < 2:
             group, column = found[0]
@@ -226,13 +228,10 @@ class ManyRuns:
         if len(each) != len(places):
             raise WrongValue(f"states must be {len(places)}, one for each run, not {len(each)}", "shape")
         for i, state in zip(places, each, strict=True):
-            found, ready = unpacked(state), self._renewed(i)
+            found, ready = unpacked(state), self._ready[i]
+            if ready.inputs:        # a state that is refused leaves those of the run as they are
+                ready = ready.with_own()
             self._become(i, ready, restored(ready, found, self.system))
-
-    def _renewed(self, i: int) -> Prepared:
-        """Arguments of a run, with memory of its own for inputs besides that of their values."""
-        ready = self._ready[i]
-        return ready.with_own() if ready.inputs else ready
 
     def _become(self, i: int, ready: Prepared, run: _gateway.OpenRun) -> None:
         """Put another run of the core in the place of one."""
@@ -258,9 +257,7 @@ class ManyRuns:
             ready = self._ready[i]
             start = ready._replace(p0=ready.p0 if p is None else p, v0=ready.v0 if v is None else v)
             with ready.inputs.initially() if ready.inputs else contextlib.nullcontext():
-                run = start.created(_gateway.OpenRun)
-            self._core.replace(i, run, ready)
-            self._readings.pop(i, None)
+                self._become(i, ready, start.created(_gateway.OpenRun))
 
 
 def _parts(count: int, threads: int) -> list[tuple[int, int]]:

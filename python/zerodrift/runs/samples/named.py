@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -79,7 +80,7 @@ class Named:
 
     def _recorded(self, name: Any) -> np.ndarray | None:
         """A recorded measure or a component of one; None if it was not recorded."""
-        place = view(name, {known: values.size // len(values) for known, values in self.outputs.items()})
+        place = view(name, {each: (i, math.prod(values.shape[1:])) for i, (each, values) in enumerate(self.outputs.items())})
         if place is None:
             return None
         values = list(self.outputs.values())[place.number]

@@ -17,12 +17,12 @@ class Reading:
     system : BaseSystem
     core : OpenRun
         The run.
-    of : Prepared
+    ready : Prepared
         Its attribute `measured` is the system whose measures are read.
     """
 
-    def __init__(self, system: BaseSystem, core: _gateway.OpenRun, of: Any) -> None:
-        self._system, self._core, self._of = system, core, of
+    def __init__(self, system: BaseSystem, core: _gateway.OpenRun, ready: Any) -> None:
+        self._system, self._core, self._ready = system, core, ready
         self._known: dict[Any, Callable[[], Any]] = {}
         self._measured: _gateway.CoreSystem | None = None
 
@@ -36,8 +36,8 @@ class Reading:
     def _found(self, name: Any) -> Callable[[], Any]:
         system = self._system
         if (place := system._watching.view(name)) is not None:
-            self._measured = self._measured or self._of.measured
-            read = self._core.measure(self._measured, place.number, place.component)
+            self._measured = self._measured or self._ready.measured
+            read = self._core.reader(self._measured, place.number, place.component)
             return read if place.form is None else lambda: place.pick(read()[None])[0]
         (group, column), core = system._column(name), self._core
         return (lambda: float(core.accelerations()[1][column])) if group == 2 else core.entry(group, column)
