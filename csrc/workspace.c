@@ -39,7 +39,7 @@ void *zd_arena_bytes(zd_arena *arena, size_t bytes)
 {
     void *here = allocate(arena, bytes, CACHE_LINE);
     const size_t lines = round_up(bytes, CACHE_LINE) / CACHE_LINE;
-    if (arena->has_others) memset(arena->has_others + arena->used / CACHE_LINE - lines, 1, lines);
+    if (arena->has_structures) memset(arena->has_structures + arena->used / CACHE_LINE - lines, 1, lines);
     return here;
 }
 
@@ -82,7 +82,7 @@ zd_memory *zd_memory_create(size_t bytes)
     unsigned char *block = zd_allocate(CACHE_LINE + bytes + bytes / CACHE_LINE);
     if (!block) return NULL;
     zd_memory *memory = (void *)block;
-    *memory = (zd_memory){.bytes = bytes, .base = block + CACHE_LINE, .has_others = block + CACHE_LINE + bytes};
+    *memory = (zd_memory){.bytes = bytes, .base = block + CACHE_LINE, .has_structures = block + CACHE_LINE + bytes};
     return memory;
 }
 

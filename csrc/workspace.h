@@ -8,14 +8,14 @@
 typedef struct zd_arena {
     unsigned char *base;    /* NULL while counting: all addresses are NULL then */
     size_t used;
-    unsigned char *has_others;  /* for each cache line 1 if it has others than numbers, to be recorded; NULL: not recorded */
+    unsigned char *has_structures;  /* for each cache line 1 if it has structures, not numbers alone; NULL: not recorded */
 } zd_arena;
 
 /* Header of a block of memory. */
 typedef struct zd_memory {
     struct zd_memory *previous;     /* in a store */
     size_t bytes;
-    unsigned char *base, *has_others;
+    unsigned char *base, *has_structures;
     unsigned char *image;   /* (bytes,): copy from zd_memory_save(); NULL: none */
 } zd_memory;
 
@@ -23,7 +23,7 @@ typedef struct zd_memory {
 zd_memory *zd_memory_create(size_t bytes);
 void zd_memory_free(zd_memory *memory);
 int zd_memory_save(zd_memory *memory);      /* copies the block to its image; nonzero: out of memory */
-static inline zd_arena zd_arena_in(zd_memory *memory) { return (zd_arena){memory->base, 0, memory->has_others}; }
+static inline zd_arena zd_arena_in(zd_memory *memory) { return (zd_arena){memory->base, 0, memory->has_structures}; }
 
 void *zd_arena_bytes(zd_arena *arena, size_t bytes);
 double *zd_arena_doubles(zd_arena *arena, size_t count);

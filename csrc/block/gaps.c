@@ -65,7 +65,7 @@ static int most_open(const gaps *self)
 static void name_joints(const gaps *self, zd_complaint to)
 {
     if (self->open[most_open(self)] <= CLOSED * zd_block_length(self->block)) {
-        zd_append(&to, "the joints can all close, but not near this drawing: draw it as it is with closed joints");
+        zd_append(&to, "the drawing must be near a position in which all joints close; there is one, but it was not found from here");
         return;
     }
     zd_append(&to, "the joints cannot all close: nearest to it there stay open ");

@@ -196,7 +196,7 @@ static void put_block(const zd_run *run, const zd_memory *block, sink *to)
     for (size_t i = 0; i < words_of(block); i++) {
         const uint64_t word = word_at(block->base, i);
         const int differs = word != (block->image ? word_at(block->image, i) : 0) && !(block == run->memory && follows(i));
-        const int is_number = i >= block->bytes / WORD || !block->has_others[i * WORD / 64];
+        const int is_number = i >= block->bytes / WORD || !block->has_structures[i * WORD / 64];
         if (!differs || (!is_number && put_address(run, i, word, to))) {
             count = 0;
             continue;

@@ -139,14 +139,14 @@ static void gather_others(const zd_point *point, double *x)
 /* det(C1_r W C0^T B): C1_r of the independent constraints at the point, B expresses the redundant ones; more than two rows are scaled */
 static double determinant(const zd_crossing *self, const zd_point *point, const double *C0)
 {
-    const int n = point->rank->n, rows = point->rows, has_others = !zd_rank_is_full(point) && !point->rank->lost;
-    if (rows == 2 && !point->layout && !has_others)
+    const int n = point->rank->n, rows = point->rows, is_mixed = !zd_rank_is_full(point) && !point->rank->lost;
+    if (rows == 2 && !point->layout && !is_mixed)
         return ZD_SIZED(turn_of_two, n, point, C0 + zd_independent_constraint(point, 0) * n, C0 + zd_independent_constraint(point, 1) * n);
     double *turn = self->memory->turn;
-    if (has_others) zd_rank_express_others(point);
+    if (is_mixed) zd_rank_express_others(point);
     for (int a = 0; a < rows; a++) {        /* the redundant part of row a is overwritten by row a + 1 */
-        multiply_row(point, C0, a, has_others ? point->rank->m : rows, turn + a * rows);
-        if (has_others) gather_others(point, turn + a * rows);
+        multiply_row(point, C0, a, is_mixed ? point->rank->m : rows, turn + a * rows);
+        if (is_mixed) gather_others(point, turn + a * rows);
     }
     if (rows == 1) return turn[0];
     int *order = self->memory->order;

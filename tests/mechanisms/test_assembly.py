@@ -440,5 +440,5 @@ def test_joints_that_close_elsewhere_are_not_said_to_stay_open(layout):
     for i, (crank, side) in enumerate(zip(cranks, (bar.start, bar.point((1, 1)), bar.end), strict=True)):
         m.revolute(f"A{i}", m.ground, crank.start)
         m.revolute(f"B{i}", crank.end, side)
-    with pytest.raises(zd.CorrectionFailed, match=r"^the joints can all close, but not near this drawing: draw it"):
+    with pytest.raises(zd.CorrectionFailed, match=r"^the drawing must be near a position in which all joints close"):
         m.system(layout).p0.copy()

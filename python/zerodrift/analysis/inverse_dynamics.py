@@ -198,8 +198,9 @@ def _sizes(at: State, V: np.ndarray, G: np.ndarray) -> np.ndarray:
 
 
 def _is_missing(residual: float, at: State, V: np.ndarray, vdot: np.ndarray) -> bool:
-    """True if the residual is more than rounding of the forces on the tangent space, of which most need not be known before they
-    cancel.
+    """True if the residual exceeds the rounding error of the forces on the tangent space.
+
+    Magnitudes of their terms before these cancel are evaluated only where the forces themselves are too small to explain it.
     """
     inertial, V = np.abs(at.M) @ np.abs(vdot), np.abs(V.T)
     if residual <= UNDRIVEN * np.linalg.norm(V @ (inertial + np.abs(at.force))):

@@ -167,7 +167,7 @@ class Watching:
         """
         found = self.find(name)
         if found is None:
-            raise WrongName(f"nothing measured is called {name!r}; {_check.closest(name, self.number)}", "wrong-name")
+            raise WrongName(f"nothing measured is called {name!r}; {_check.closest(name, self.known)}", "wrong-name")
         same = np.ones(self._measures[found.number].size, dtype=bool)
         if self.core.measure_depends(found.number) == "accelerations" and self.core.m:
             changes = self._evaluate(found.number, solution, "redundant")

@@ -41,7 +41,7 @@ class Prepared(NamedTuple):
     declared: Declared | None       # inputs
     inputs: _gateway.Inputs | None
     source: _gateway.CoreSystem     # core before it became that of one run
-    measured_of_inputs: _gateway.CoreSystem | None = None   # the system that has the measures, where there are inputs
+    measured_with_inputs: _gateway.CoreSystem | None = None   # the system that has the measures, where there are inputs
 
     @property
     def outputs(self) -> _gateway.Outputs | None:
@@ -76,7 +76,7 @@ class Prepared(NamedTuple):
     @property
     def measured(self) -> _gateway.CoreSystem | None:
         """The system that has the measures, with memory of one run, which is made when the first is read."""
-        return self.measured_of_inputs or self.of._watching.core.for_run()
+        return self.measured_with_inputs or self.of._watching.core.for_run()
 
     def with_own(self, values: np.ndarray | None = None) -> Prepared:
         """The same with the memory of one run: inputs, in `values` if given, and records of events and outputs."""
@@ -87,7 +87,7 @@ class Prepared(NamedTuple):
             recorded = _outputs.Recorded(names, self.of, core, measured)
         if self.events is not None:
             watcher = _gateway.Watcher(core, self.events, measured or self.of._watching.core, is_own=inputs is not None)
-        return self._replace(core=core, measured_of_inputs=measured, inputs=inputs, recorded=recorded, watcher=watcher)
+        return self._replace(core=core, measured_with_inputs=measured, inputs=inputs, recorded=recorded, watcher=watcher)
 
 
 def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: Any, outputs: Any, save_to: Any,
