@@ -28,9 +28,10 @@ def sources() -> list[str]:
     return sorted(str(path.relative_to(ROOT)) for path in (ROOT / "csrc").rglob("*.c"))
 
 
-def fingerprint() -> str:
-    """What the core is made of; `zerodrift` compares it to notice that a core in place is stale."""
-    return runpy.run_path(str(ROOT / "python" / "zerodrift" / "_fingerprint.py"))["core_fingerprint"](ROOT)
+def fingerprints() -> str:
+    """Definitions of what the core is made of, by which a stale core in place is noticed, and of the layout of saved states."""
+    found = runpy.run_path(str(ROOT / "python" / "zerodrift" / "_fingerprint.py"))
+    return f'#define ZD_FINGERPRINT "{found["core_fingerprint"](ROOT)}"\n#define ZD_LAYOUT "{found["layout_fingerprint"](ROOT)}"\n'
 
 
 def declarations() -> str:
@@ -75,7 +76,7 @@ ffibuilder = FFI()
 ffibuilder.cdef(declarations())
 ffibuilder.set_source(
     "zerodrift._core",
-    f'#define ZD_FINGERPRINT "{fingerprint()}"\n#include "python/evaluate.h"\n',
+    f'{fingerprints()}#include "python/evaluate.h"\n',
     sources=sources(),
     depends=[str(path.relative_to(ROOT)) for path in (ROOT / "csrc").rglob("*.h")],
     include_dirs=["csrc"],

@@ -1,4 +1,4 @@
-"""The fingerprint of the sources: a core that is older than they are is noticed."""
+"""Fingerprints of the sources: a core that is older than they are is noticed, and what states of runs depend on."""
 
 import os
 import shutil
@@ -9,6 +9,7 @@ import pytest
 
 from support import ROOT
 from zerodrift import _core
+from zerodrift._fingerprint import layout_fingerprint
 
 
 @pytest.fixture
@@ -47,3 +48,19 @@ def test_a_stale_core_is_noticed(tree, change):
     assert result.returncode
     assert f"StaleCore: the compiled core is older than {tree / 'csrc'}; " in result.stderr
     assert result.stderr.rstrip().endswith(f"rebuild it with: pip install -e {tree} [zd:stale-core]")
+
+
+@pytest.mark.parametrize(("name", "old", "new", "is_another"), [
+    ("linalg/newton.c", "\n}", "\n    /* another line */ ;\n}", False),
+    ("run/saved_state.c", "0x100000001b3", "0x100000001b5", False),
+    ("linalg/dense.h", "int rows, rank;", "int rank, rows;", True),
+    ("linalg/dense.h", "int rows, rank;", "int rows, rank;     /* a comment */", False),
+    ("zerodrift/settings.h", "ZD_STOP, ZD_CONTINUE", "ZD_CONTINUE, ZD_STOP", True),
+    ("linalg/row_space.c", "columns * rows", "2 * columns * rows", True),
+], ids=["function", "constant", "structure", "comment", "enumeration", "memory"])
+def test_layouts_of_runs_are_of_structures_enumerations_and_memory(tree, name, old, new, is_another):
+    path, before = tree / "csrc" / name, layout_fingerprint(tree)
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new, 1))
+    assert (layout_fingerprint(tree) != before) == is_another

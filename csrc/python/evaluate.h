@@ -1,6 +1,6 @@
 /* Evaluation of systems written in Python. It copies the state and the terms between the core's memory, which is freed with the run, and
  * that of Python, detects changes of the state, and terms that are not finite, at a hundredth of the cost in Python. The extension module
- * includes this text with ZD_FINGERPRINT defined.
+ * includes this text with ZD_FINGERPRINT and ZD_LAYOUT defined.
  */
 #pragma once
 
@@ -9,6 +9,7 @@
 #include "interface.h"
 
 const char *const zd_fingerprint = ZD_FINGERPRINT;
+const char *const zd_layout = ZD_LAYOUT;
 
 /* to <- from; returns true if any bit has changed */
 static int replace(double *to, const double *from, int n)

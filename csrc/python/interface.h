@@ -1,4 +1,4 @@
-/* Declarations of the extension module besides zerodrift.h: the fingerprint of its sources, and systems written in Python.
+/* Declarations of the extension module besides zerodrift.h: fingerprints of its sources, and systems written in Python.
  *
  * Declarations only: CFFI reads this text after the preprocessor. Functions marked ZD_WRITTEN_IN_PYTHON are implemented there.
  */
@@ -15,6 +15,7 @@
 #define ZD_WRITTEN_IN_PYTHON static
 
 extern const char *const zd_fingerprint;
+extern const char *const zd_layout;     /* of the memory of runs */
 
 typedef struct zd_python_term {     /* Python's memory of one term */
     int term;                       /* its bit */

@@ -283,7 +283,7 @@ static const char *wrong_header(const uint64_t *header, const unsigned char *blo
     if (hash(0, block + HEADER * WORD, bytes - HEADER * WORD) != header[CHECKSUM]) return "a saved state must be unchanged: it is damaged";
     if (memcmp(expected, header + FINGERPRINT, sizeof expected) || header[COORDINATES] != (uint64_t)system->nq
         || header[VELOCITIES] != (uint64_t)system->nv || header[PLACES] != words_of_places(settings->inputs))
-        return "a saved state must be of the same system, with the same parameters and the same version of zerodrift";
+        return "a saved state must be of the same system, with the same parameters, and of a version of zerodrift with the same layout";
     if (header[UNIT] != (uint64_t)(zd_closed_form_unit(system, settings) + 1))
         return UNITS[header[UNIT] % (sizeof UNITS / sizeof *UNITS)];
     return NULL;

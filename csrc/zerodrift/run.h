@@ -142,9 +142,9 @@ double zd_run_omega_h(const zd_run *run);                   /* largest omega h o
 int zd_state_begin(zd_run *run, const double *p0, const double *v0);
 size_t zd_state_size(const zd_run *run);        /* bytes of its state */
 /* Writes the state into a block of zd_state_size() bytes, without addresses. `fingerprint`: text of up to 63 characters that identifies
- * the system with its parameters, and the sources of the core. */
+ * the system with its parameters, and the layout of the memory of runs. */
 void zd_state_save(const zd_run *run, const char *fingerprint, void *block);
-/* A run that continues the one whose state was saved, by a core of the same sources, with the same settings and vector unit: with its bits,
+/* A run that continues the one whose state was saved, by a core of the same layout, with the same settings and vector unit: with its bits,
  * or, in closed form with vectors by a core of another compiler, to 1e-13. Its state can be saved again. On failure NULL, with the reason in
  * `status` and `message`. */
 zd_run *zd_state_restore(const zd_system *system, const zd_settings *settings, const void *block, size_t bytes, const char *fingerprint,

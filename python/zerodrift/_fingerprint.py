@@ -7,7 +7,13 @@ from __future__ import annotations
 
 import hashlib
 import os
+import re
 from typing import Any
+
+COMMENT = re.compile(rb"/\*.*?\*/|//[^\n]*", re.DOTALL)
+# Structures and enumerations, nested ones up to the brace in the first column; calls that lay out memory
+LAYOUT = re.compile(rb"^(?:typedef )?(?:struct|enum|union)\b[^;(){}]*\{(?:[^{}]*\}|.*?^\})[^;]*;|\bzd_arena_\w+\([^;{]*;",
+                    re.DOTALL | re.MULTILINE)
 
 
 def fingerprint(*parts: Any) -> str:
@@ -23,11 +29,24 @@ def fingerprint(*parts: Any) -> str:
 def core_fingerprint(root: str | os.PathLike[str]) -> str:
     """The fingerprint of all that the core in the source tree at `root` is compiled from, the compiler's flags included."""
     root = os.fspath(root)
-    sources = sorted(os.path.join(folder, name) for folder, _, names in os.walk(os.path.join(root, "csrc")) for name in names
-                     if name.endswith((".c", ".h")))
     digest = hashlib.sha256()
-    for path in [*sources, os.path.join(root, "python", "build_core.py")]:      # read at each import: pathlib takes longer
-        with open(path, "rb") as file:
-            content = file.read()
+    for path in [*_sources(root), os.path.join(root, "python", "build_core.py")]:
+        content = _read(path)
         digest.update(f"{path[len(root):].replace(os.sep, '/')} {len(content)} ".encode() + content)
     return digest.hexdigest()
+
+
+def layout_fingerprint(root: str | os.PathLike[str]) -> str:
+    """The fingerprint of the memory of a run: structures, enumerations and the order of allocations, without what computes."""
+    found = [b" ".join(each.split()) for path in _sources(os.fspath(root)) for each in LAYOUT.findall(COMMENT.sub(b"", _read(path)))]
+    return fingerprint(b"\n".join(found))
+
+
+def _sources(root: str) -> list[str]:
+    return sorted(os.path.join(folder, name) for folder, _, names in os.walk(os.path.join(root, "csrc")) for name in names
+                  if name.endswith((".c", ".h")))
+
+
+def _read(path: str) -> bytes:
+    with open(path, "rb") as file:     # at each import: pathlib takes longer
+        return file.read()

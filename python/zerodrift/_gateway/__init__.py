@@ -17,6 +17,7 @@ from .base import (
     ERRORS,
     EVENT,
     FINGERPRINT,
+    LAYOUT,
     FIXED_STEPS,
     FULL,
     INTERRUPTED,

@@ -18,6 +18,7 @@ TABLES = {"systems": lib.ZD_SYSTEMS, "formulations": lib.ZD_FORMULATIONS,
 MESSAGE_SIZE = 512
 PROCESSOR_UNIT = lib.zd_processor_unit()      # the number of the last vector unit that it has
 FINGERPRINT = ffi.string(lib.zd_fingerprint).decode()       # of the sources that the core was compiled from
+LAYOUT = ffi.string(lib.zd_layout).decode()                 # the fingerprint of how they lay out the memory of runs
 ROW_VALUES = lib.ZD_ROW_VALUES      # for how many numbers of a row's parameters settings have room
 
 FIXED_STEPS, ADAPTIVE_STEPS = lib.ZD_FIXED_STEPS, lib.ZD_ADAPTIVE_STEPS

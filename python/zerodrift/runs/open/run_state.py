@@ -83,11 +83,11 @@ def unpacked(given: Any) -> RunState:
 
 
 def fingerprint(ready: Prepared, system: BaseSystem) -> str:
-    """Text that identifies the core and the system with its parameters; `system` has the same definition."""
+    """Text that identifies the layout of runs and the system with its parameters; `system` has the same definition."""
     of = ready.of
     parameters = sorted((name, repr(value)) for name, value in of.parameters.items())
     names = ready.declared.names if ready.declared else ()
-    described = (_gateway.FINGERPRINT, type(of).__name__, of.name, of.coordinates, of.velocities, of.constraints, parameters,
+    described = (_gateway.LAYOUT, type(of).__name__, of.name, of.coordinates, of.velocities, of.constraints, parameters,
                  names, _definition(system))
     return hashlib.sha256(repr(described).encode()).hexdigest()[:DIGITS]
 
