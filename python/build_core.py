@@ -29,9 +29,10 @@ def sources() -> list[str]:
 
 
 def fingerprints() -> str:
-    """Definitions of what the core is made of, by which a stale core in place is noticed, and of the layout of saved states."""
+    """Definitions of what the core is made of, by which a stale one is noticed, and of its layout of runs."""
     found = runpy.run_path(str(ROOT / "python" / "zerodrift" / "_fingerprint.py"))
-    return f'#define ZD_FINGERPRINT "{found["core_fingerprint"](ROOT)}"\n#define ZD_LAYOUT "{found["layout_fingerprint"](ROOT)}"\n'
+    definitions = {"ZD_FINGERPRINT": found["core_fingerprint"](ROOT), "ZD_LAYOUT": found["layout_fingerprint"](ROOT)}
+    return "".join(f'#define {name} "{value}"\n' for name, value in definitions.items())
 
 
 def declarations() -> str:

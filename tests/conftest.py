@@ -35,13 +35,15 @@ ABSENT = {name for name in EXTRAS if importlib.util.find_spec(name) is None}
 
 
 def pytest_configure(config):
-    """Separate the compile cache of the tests from the user's, and let Ctrl-C interrupt also in the background."""
+    """Separate the compile cache of the tests from the user's, compile only what a test wants, and let Ctrl-C interrupt also
+    in the background.
+    """
     signal.signal(signal.SIGINT, signal.default_int_handler)    # processes in the background begin with it ignored
     if not WHOLE:
         fmu_libraries.FLAGS = ("-O0", *fmu_libraries.FLAGS[1:])     # FMUs: the same bits, in a third of the compiler's time
     if not hasattr(config, "workerinput"):      # processes of pytest-xdist share the cache of the one that started them
         folder = tempfile.mkdtemp(prefix="zerodrift-tests-")
-        os.environ["ZERODRIFT_CACHE"] = folder
+        os.environ |= {"ZERODRIFT_CACHE": folder, "ZERODRIFT_COMPILE": "0"}
         atexit.register(shutil.rmtree, folder, ignore_errors=True)
 
 

@@ -15,7 +15,7 @@
 #define ZD_WRITTEN_IN_PYTHON static
 
 extern const char *const zd_fingerprint;
-extern const char *const zd_layout;     /* of the memory of runs */
+extern const char *const zd_layout;     /* memory of runs */
 
 typedef struct zd_python_term {     /* Python's memory of one term */
     int term;                       /* its bit */

@@ -6,6 +6,7 @@ The build of the core runs this file by itself, before there is a package, so it
 from __future__ import annotations
 
 import hashlib
+import itertools
 import os
 import re
 from typing import Any
@@ -38,8 +39,8 @@ def core_fingerprint(root: str | os.PathLike[str]) -> str:
 
 def layout_fingerprint(root: str | os.PathLike[str]) -> str:
     """The fingerprint of the memory of a run: structures, enumerations and the order of allocations, without what computes."""
-    found = [b" ".join(each.split()) for path in _sources(os.fspath(root)) for each in LAYOUT.findall(COMMENT.sub(b"", _read(path)))]
-    return fingerprint(b"\n".join(found))
+    found = (LAYOUT.findall(COMMENT.sub(b"", _read(path))) for path in _sources(os.fspath(root)))
+    return fingerprint(*(b" ".join(each.split()) for each in itertools.chain(*found)))
 
 
 def _sources(root: str) -> list[str]:

@@ -82,7 +82,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         self.gravity = np.zeros(self.dimension) if gravity is None else _check.vector("gravity", gravity, self.dimension)
         super().__init__(parameters)
 
-    def system(self, coordinates: str | None = None, compiled: bool = False) -> MechanismSystem:
+    def system(self, coordinates: str | None = None, compiled: bool | None = None) -> MechanismSystem:
         """The equations of the mechanism as it is now; what is added later does not change them.
 
         Parameters
@@ -99,7 +99,10 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
             and quaternion, and the angles of joints that close loops, which follow; "absolute" are seven coordinates and six
             velocities a body, and the angles of all joints. Chains of balls are cheaper in absolute coordinates, those of hinges
             from some twenty on.
-        compiled : bool
+        compiled : None or bool
+            None: tables are interpreted, but a run of fixed steps that gains more than 5 s by it, from a count of operations,
+            compiles them before its first step; ``print(sol)`` of others has what `compiled` would save. False, or
+            ZERODRIFT_COMPILE=0 in the environment, refuse that.
             True: the equations are written out, compiled and cached, with closed-form functions where these pay:
             several times faster for small mechanisms, after a second or more once. Numbers stay numbers that
             `with_parameters` changes; which of them are zero or one, and which points of a body coincide, is in the code, and
@@ -129,7 +132,9 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         <system of pendulum: absolute coordinates, 3, 2 holonomic and 0 nonholonomic constraints>
         """
         layout = None if coordinates is None else _check.choice("coordinates", coordinates, LAYOUTS)
-        return MechanismSystem(self._drawing(), layout, {}, _check.instance("compiled", compiled, bool, "True or False"))
+        if compiled is not None:
+            _check.instance("compiled", compiled, bool, "None, True or False")
+        return MechanismSystem(self._drawing(), layout, {}, compiled)
 
     def with_parameters(self, changes: Mapping[str, float] | None = None, /, **changed: float) -> MechanismSystem:
         """The system of this mechanism with some numbers changed, assembled anew.

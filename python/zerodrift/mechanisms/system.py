@@ -43,8 +43,6 @@ from .reports import cost
 from .reports.in_words import Reported
 
 LAYOUTS = ("joint", "absolute")
-SMALL_SIZE = 30      # velocities and constraints up to which generated code is known to pay
-INTERPRETED = "tables are interpreted; m.system(compiled=True) is mostly several times as fast"
 
 
 class MechanismSystem(Reported):
@@ -65,7 +63,7 @@ class MechanismSystem(Reported):
         True: the equations are written out and compiled; False also where no compiler was found.
     """
 
-    def __init__(self, drawing: Drawing, layout: str | None, changed: dict[str, float], compiled: bool = False,
+    def __init__(self, drawing: Drawing, layout: str | None, changed: dict[str, float], compiled: bool | None = None,
                  closed_form: tuple[str, ClosedFormFunctions] | None = None) -> None:
         self._drawing, self._changed, self.name = drawing, changed, drawing.name
         self._numbers = Numbers(changed)
@@ -75,11 +73,14 @@ class MechanismSystem(Reported):
             self._tables = self._tables.absolute()
         self._start = Starting(drawing, self._numbers, self._tables)
         self._first_core = self._plain_core(self._tables)
-        self._is_written_out, self._given_closed_form = compiled, closed_form
+        self._compiled, self._given_closed_form = compiled, closed_form
         if compiled:
-            self._check_no_reactions()
-            self._tables.laws.check_written()
+            self._check_written()
             self._written       # noqa: B018 - generates the code now
+
+    @property
+    def _is_written_out(self) -> bool:
+        return bool(self._compiled)
 
     # These are computed at first use: for a hundred bodies they take longer than everything else.
 
@@ -111,11 +112,12 @@ class MechanismSystem(Reported):
         """Core system without measures, unless user functions read them."""
         return measuring(tables) if self._drawing.reactions() else tables.core()
 
-    def _check_no_reactions(self) -> None:
-        """Check that code can be generated: it does not solve for what user functions read."""
+    def _check_written(self) -> None:
+        """Check that code can be generated: user functions must be no callables, and not read reactions."""
         if names := self._drawing.reactions():
             raise WrongValue(f"compiled=True must have user functions of t, positions and velocities, and those of {self.name} "
                              f"read {', '.join(names)}: take compiled=False", "not-portable")
+        self._tables.laws.check_written()
 
     @functools.cached_property
     def _measuring(self) -> MechanismCore:
@@ -223,11 +225,13 @@ class MechanismSystem(Reported):
                 for group in (self.coordinates, self.velocities))
         return p, v
 
-    def _why_no_closed_form(self, embeds: bool = False) -> str | None:
+    def _compiled_for(self, steps: int) -> MechanismSystem | None:
+        gains = self._compiled is None and self._gains_by_compiling(steps)
+        return MechanismSystem(self._drawing, self.layout, self._changed, compiled=True) if gains else None
+
+    def _why_no_closed_form(self, embeds: bool = False, steps: float = 0.0) -> str | None:
         if not self._is_written_out:
-            is_portable = self._has_plain_laws and not self._drawing.reactions()
-            is_served = self.layout == "joint" or self._drawing.dimension == 2
-            return INTERPRETED if is_served and is_portable and max(self.nv, self.m) <= SMALL_SIZE else None
+            return self._why_interpreted(steps)
         functions = self._closed_form[1]
         return (functions.embedding if embeds else functions).why_none if self.compiled else NO_COMPILER
 
@@ -298,7 +302,7 @@ class MechanismSystem(Reported):
 
     def _with_inputs(self, names: Sequence[str]) -> WithInputs:
         found = driven(self._drawing, names, self._changed)
-        system = MechanismSystem(found.drawing, self.layout, self._changed, self._is_written_out)
+        system = MechanismSystem(found.drawing, self.layout, self._changed, self._compiled)
         return WithInputs(system, found.initial, found.units, law_inputs.bound)
 
     def _names_of_inputs(self) -> list[str]:
@@ -307,7 +311,7 @@ class MechanismSystem(Reported):
     def _with(self, changed: dict[str, Any]) -> MechanismSystem:
         numbers = {name: checked(name, value) for name, value in changed.items()}
         closed_form = self._closed_form if self._is_written_out else None
-        return MechanismSystem(self._drawing, self.layout, self._changed | numbers, self._is_written_out, closed_form)
+        return MechanismSystem(self._drawing, self.layout, self._changed | numbers, self._compiled, closed_form)
 
     def _driven_from(self, places: list[float]) -> MechanismSystem:
         """The same system with these initial positions of its motors of constant speed, as assembled or nearly."""
@@ -321,7 +325,7 @@ class MechanismSystem(Reported):
 
     def __reduce__(self) -> tuple[Any, ...]:
         closed_form = self._closed_form if self._is_written_out else None
-        return MechanismSystem, (self._drawing, self.layout, self._changed, self._is_written_out, closed_form)
+        return MechanismSystem, (self._drawing, self.layout, self._changed, self._compiled, closed_form)
 
     def _described(self) -> dict[str, Any]:
         """As of any system, with the mechanism or the reason why it cannot be saved."""

@@ -25,10 +25,17 @@ class WithInputs(NamedTuple):
 class Defaults:
     """Defaults: a system without advice, drawing, inputs, series and other coordinates."""
 
-    def _why_no_closed_form(self, embeds: bool = False) -> str | None:
-        """Known reason why the system has no closed-form functions; empty: it has some; None: systems of its kind have none."""
+    def _why_no_closed_form(self, embeds: bool = False, steps: float = 0.0) -> str | None:
+        """Known reason why the system has no closed-form functions; empty: it has some; None: systems of its kind have none.
+
+        `steps`: number of corrected steps of "rk4" that take as long as a run, where that matters.
+        """
         core = getattr(self, "_core", None)
         return "" if core is not None and core.has_closed_form else None
+
+    def _compiled_for(self, steps: int) -> Any:
+        """The same system with compiled equations, if a run of so many fixed steps gains by it; None: it does not."""
+        return None
 
     def _parameter_units(self) -> dict[str, str]:
         """Units of the parameters, as far as they are known."""

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import functools
+import os
 from collections.abc import Iterable
 
 import numpy as np
 
 from ..._gateway.mechanisms.assembly import CoreAssembly
 from ..._gateway.mechanisms.core import MechanismCore
-from ...errors import ZerodriftError, sentence
+from ...errors import WrongValue, ZerodriftError, sentence
+from ...symbolics.compile import compilers
+from ...symbolics.compile.closed_form_library import NO_COMPILER
 from ...systems.base import BaseSystem
 from ..assembly import space_advice
 from ..assembly.drive_starts import driven_coordinate
@@ -23,6 +26,10 @@ from ..equations.tables import Tables
 from . import advice, cost
 
 MANY = 32       # joint coordinates: their cost is reported only from this number on
+SMALL_SIZE = 30         # velocities and constraints up to which generated code is known to pay
+FEWEST_STEPS = 10_000   # of a run that may gain by compiling: no system of that size takes a millisecond for a step
+WORTH_COMPILING = 5.0   # s that a run must gain: compiling takes one or two
+INTERPRETED = "tables are interpreted; m.system(compiled=True) saves about"
 
 
 class Reported(BaseSystem):
@@ -37,6 +44,8 @@ class Reported(BaseSystem):
     _start: Starting
     _is_written_out: bool
 
+    def _check_written(self) -> None: ...
+
     @functools.cached_property
     def _cost(self) -> cost.Cost | None:
         """Computing cost, for many joint coordinates, as absolute ones may be cheaper; None for few or for generated code."""
@@ -44,6 +53,32 @@ class Reported(BaseSystem):
 
     def _what_it_costs(self, steps: int | None) -> str | None:
         return cost.of_a_run(self._cost, steps) if self._cost else None
+
+    @functools.cached_property
+    def _operations(self) -> float:
+        """Operations of a corrected step of "rk4"."""
+        found = cost.cost(self._tables)
+        return found.absolute if self.layout == "absolute" else found.joint
+
+    def _gains_by_compiling(self, steps: int) -> bool:
+        """True if a run of so many fixed steps saves more than compiling takes, which nothing in the environment refuses."""
+        is_long = steps >= FEWEST_STEPS and os.environ.get("ZERODRIFT_COMPILE") != "0"
+        is_worth = is_long and cost.saved(self._operations, steps) >= WORTH_COMPILING
+        return is_worth and (self._why_interpreted(steps) or "").startswith(INTERPRETED)
+
+    def _why_interpreted(self, steps: float) -> str | None:
+        """Reason why equations are interpreted, with what code saves in so many steps of "rk4"; None: there is none for these."""
+        is_served = self.layout == "joint" or self._drawing.dimension == 2
+        if not is_served or max(self.nv, self.m) > SMALL_SIZE:
+            return None
+        try:
+            self._check_written()
+        except WrongValue as error:
+            return sentence(error)
+        saved = float(f"{cost.saved(self._operations, steps):.1g}")     # digits that the count has
+        if saved >= WORTH_COMPILING and compilers.find() is None:
+            return NO_COMPILER
+        return f"{INTERPRETED} {cost.in_words(saved)} of such a run"
 
     def _advice(self, error: Exception) -> str | None:
         """Advice for a singular start, or None."""

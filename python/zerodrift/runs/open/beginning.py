@@ -100,6 +100,10 @@ def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: A
     of = declared.of.system if declared else system
     plan = settings.plan(of, span, arguments)
     plan.core_settings.is_open = is_open
+    takes = plan.steps and not is_open and _gateway.takes_closed_form(core_of(of), plan.core_settings)
+    if takes and (compiled := system._compiled_for(plan.steps)) is not None:
+        return prepared(compiled, span, p0, v0, events, outputs, save_to, arguments, inputs=inputs, speeds=speeds,
+                        stacklevel=stacklevel + 1)
     core = closed_form_core_of(of, plan.settings["vector"], plan.core_settings)
     unit = _gateway.closed_form_unit(core, plan.core_settings)
     plan.settings["vector"] = None if unit is None else settings.VECTOR_UNITS[unit]

@@ -21,6 +21,7 @@ from ..samples.solution import Solution
 from . import diagnosis
 from .beginning import Prepared
 
+EVALUATIONS = 6.0       # of terms in a corrected step of "rk4"
 EXPLICIT = "rk4"        # an integrator that uses closed-form functions wherever the formulation does
 STEPS_AHEAD = 4         # steps of fixed size in which a dead point may be the cause of a failure
 SHARE_AHEAD = 1e-3      # of the time span, with adaptive steps
@@ -75,7 +76,7 @@ def _arrays_and_stats(record: _gateway.Record, results: _gateway.Results, second
 def _matrix_path_reason(system: BaseSystem, settings: dict[str, Any], stats: dict[str, Any]) -> str | None:
     """Reason why no step used the closed form; None if some did, or if systems of this kind have no closed form."""
     translated, core = core_settings((0.0, 0.0), settings), core_of(system)
-    lacks = system._why_no_closed_form(_gateway.takes_embeddings(translated))
+    lacks = system._why_no_closed_form(_gateway.takes_embeddings(translated), stats["evaluations"] / EVALUATIONS)
     if stats["closed_form_steps"] or not stats["steps"] or lacks is None:
         return None
     if settings["closed_form"] is False:

@@ -178,8 +178,8 @@ class Run(Stepping):
 
         A run that is made alike continues from it with the same bits: here or in another process, with the same vector
         unit, in this version and others that lay out runs alike, whatever compiler built them (in closed form with other units
-        than "baseline": to 1e-13). Controllers with the methods ``state()`` and ``restore(state)`` are included; others keep what they have, and are named in a warning.
-        Samples are not.
+        than "baseline": to 1e-13). Controllers with the methods ``state()`` and ``restore(state)`` are included; others keep
+        what they have, and are named in a warning. Samples are not.
 
         Returns
         -------
