@@ -127,11 +127,6 @@ extern const zd_equations zd_equations_of_independent;  /* states in independent
 /* vdot and lambda at the point from `evaluate`, with the terms that corrections add to the right side of (6); NULL: none. */
 int zd_closed_form_accelerate(zd_motion *motion, int (*evaluate)(zd_motion *motion, const double *added));
 
-/* projection.c: projects p and v at t, and computes the point's acceleration there. p and v are the point's own, or the caller copies them
- * there. The second is zd_evaluation_path.project of a converted state. */
-int zd_project_and_accelerate(zd_motion *motion, double t, double *p, double *v);
-int zd_project_converted(zd_stepper *self, double t1, int64_t step, int forced);
-
 /* Newton's iteration in closed form: each call of a system's function has the residual Phi and the correction dp. */
 
 typedef struct zd_iterate {     /* the arguments of such a function, or the first of them */
