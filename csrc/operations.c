@@ -36,40 +36,21 @@ static zd_run *accelerated(const zd_system *system, int formulation, enum zd_on_
     return run;
 }
 
-int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singular on_singular, double t, const double *p, const double *v,
-                    double *vdot, double *multipliers, int *is_deficient, char *message, int message_size)
-{
-    int status;
-    zd_run *run = accelerated(system, formulation, on_singular, t, p, v, &status, message, message_size);
-    if (!run) return status;
-    memcpy(vdot, run->motion.point->vdot, (size_t)system->nv * sizeof *vdot);
-    zd_rank_find_multipliers(run->motion.point);
-    if (zd_constraints(system)) memcpy(multipliers, run->motion.point->lambda, (size_t)zd_constraints(system) * sizeof *multipliers);
-    if (is_deficient) *is_deficient = zd_rank_is_deficient(run->motion.point);
-    return finish(run, status, message, message_size);
-}
-
 int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singular on_singular, int64_t states, const double *t,
-                     const double *p, const double *v, double *vdot, double *multipliers, int *is_deficient, char *message,
+                     const double *p, const double *v, double *vdot, double *multipliers, int *is_deficient, double *u, char *message,
                      int message_size)
 {
-    int64_t nq = system->nq, nv = system->nv, m = zd_constraints(system);
-    int status = ZD_DONE;
-    for (int64_t i = 0; i < states && !status; i++)
-        status = zd_acceleration(system, formulation, on_singular, t[i], p + i * nq, v + i * nv, vdot + i * nv, multipliers + i * m,
-                                 is_deficient + i, message, message_size);
-    return status;
-}
-
-int zd_read_solved(const zd_system *system, int formulation, int64_t states, const double *t, const double *p, const double *v, double *u,
-                   char *message, int message_size)
-{
-    int64_t nq = system->nq, nv = system->nv, k = system->reading->functions;
+    const int64_t nq = system->nq, nv = system->nv, m = zd_constraints(system);
     int status = ZD_DONE;
     for (int64_t i = 0; i < states && !status; i++) {
-        zd_run *run = accelerated(system, formulation, ZD_CONTINUE, t[i], p + i * nq, v + i * nv, &status, message, message_size);
+        zd_run *run = accelerated(system, formulation, on_singular, t[i], p + i * nq, v + i * nv, &status, message, message_size);
         if (!run) return status;
-        memcpy(u + i * k, run->motion.point->inputs, (size_t)k * sizeof *u);
+        const zd_point *point = run->motion.point;
+        zd_rank_find_multipliers(point);
+        if (vdot) memcpy(vdot + i * nv, point->vdot, (size_t)nv * sizeof *vdot);
+        if (multipliers) memcpy(multipliers + i * m, point->lambda, (size_t)m * sizeof *multipliers);
+        if (is_deficient) is_deficient[i] = zd_rank_is_deficient(point);
+        if (u) memcpy(u + i * system->reading->functions, point->inputs, (size_t)system->reading->functions * sizeof *u);
         status = finish(run, status, message, message_size);
     }
     return status;
@@ -86,21 +67,28 @@ int zd_read_states(const zd_system *system, int64_t states, const double *t, con
     return status;
 }
 
-int zd_measure_states(const zd_system *system, const double *inputs, int measure, int64_t states, const double *t, const double *p,
-                      const double *v, const double *vdot, const double *multipliers, const zd_measured *first, double *scratch)
+int zd_measure_states(const zd_system *system, const double *inputs, int count, const int *measures, int64_t states, const double *t,
+                      const double *p, const double *v, const double *vdot, const double *multipliers, const zd_measured *first,
+                      double *scratch)
 {
     const zd_measures *all = system->measures;
-    const int64_t size = all->measure[measure].size, nq = system->nq, nv = system->nv, m = zd_constraints(system);
-    const int64_t k = system->reading ? system->reading->functions : 0;
+    const int64_t nq = system->nq, nv = system->nv, m = zd_constraints(system), k = system->reading ? system->reading->functions : 0;
     zd_measured at = *first;
     int status = ZD_DONE;
     for (int64_t i = 0; i < states && !status; i++) {
-        status = all->evaluate(system->data, inputs ? inputs + i * k : NULL, measure, t[i], p + i * nq, v + i * nv,
-                               vdot ? vdot + i * nv : NULL, multipliers ? multipliers + i * m : NULL, &at, scratch);
-        if (at.value) at.value += size;
+        for (int j = 0; j < count && !status; j++) {
+            const int64_t size = all->measure[measures[j]].size;
+            at.is_same_state = j > 0;
+            status = all->evaluate(system->data, inputs ? inputs + i * k : NULL, measures[j], t[i], p + i * nq, v + i * nv,
+                                   vdot ? vdot + i * nv : NULL, multipliers ? multipliers + i * m : NULL, &at, scratch);
+            if (at.value) at.value += size;
+            if (at.rate) at.rate += size;
+            if (at.jacobian) at.jacobian += size * nv;
+            if (at.bias) at.bias += size;
+            if (at.least) at.least += m;
+            if (at.redundant) at.redundant += size * m;
+        }
         if (at.efforts) at.efforts++;
-        if (at.least) at.least += m;
-        if (at.redundant) at.redundant += size * m;
     }
     return status;
 }
@@ -143,27 +131,6 @@ int zd_residuals_along(const zd_system *system, const double *inputs, int parts,
         if (sizes[i] > 0) status = zd_residual_derivatives(&state, &direction, 1 / sizes[i], accuracy, derivatives + i * state.width);
     }
     zd_memory_free(memory);
-    return status;
-}
-
-int zd_measure_rates(const zd_system *system, const double *inputs, int count, const int *measures, int64_t states, const double *t,
-                     const double *p, const double *v, const zd_measured *first, double *scratch)
-{
-    const zd_measures *all = system->measures;
-    zd_measured at = *first;
-    int status = ZD_DONE;
-    for (int64_t i = 0; i < states && !status; i++) {
-        for (int j = 0; j < count && !status; j++) {
-            int size = all->measure[measures[j]].size;
-            at.is_same_state = j > 0;
-            status = all->evaluate(system->data, inputs, measures[j], t[i], p + i * system->nq, v + i * system->nv, NULL, NULL, &at,
-                                   scratch);
-            at.value += size;
-            at.rate += size;
-            at.jacobian += size * system->nv;
-            at.bias += size;
-        }
-    }
     return status;
 }
 

@@ -22,25 +22,21 @@ zd_system zd_perturbed(zd_perturbation *perturbation);      /* refers to the per
 
 /* ---- operations of a run for single states; on failure each writes one sentence into `message` ---- */
 
-/* *is_deficient, unless NULL, <- 1 if some constraints depend on others, so that the multipliers are a choice. */
-int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singular on_singular, double t, const double *p, const double *v,
-                    double *vdot, double *multipliers, int *is_deficient, char *message, int message_size);
-/* The same at many states: t (states,), p (states, nq), v (states, nv) give vdot (states, nv), multipliers (states, m),
- * is_deficient (states,). */
+/* Accelerations at states t (states,), p (states, nq), v (states, nv), those of these that are not NULL: vdot (states, nv), multipliers
+ * (states, m); is_deficient (states,), 1 if some constraints depend on others, so that the multipliers are a choice; and, of a system with
+ * zd_reading, the values u (states, functions) of its user functions. */
 int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singular on_singular, int64_t states, const double *t,
-                     const double *p, const double *v, double *vdot, double *multipliers, int *is_deficient, char *message,
+                     const double *p, const double *v, double *vdot, double *multipliers, int *is_deficient, double *u, char *message,
                      int message_size);
-/* Values u (states, functions) of the user functions of a system that read reactions, see zd_reading, as they are solved for with the
- * accelerations, and where these, the multipliers and efforts (states,), NULL for none, are given. */
-int zd_read_solved(const zd_system *system, int formulation, int64_t states, const double *t, const double *p, const double *v, double *u,
-                   char *message, int message_size);
+/* Values u (states, functions) of these user functions where accelerations, multipliers and efforts (states,), NULL for none, are given. */
 int zd_read_states(const zd_system *system, int64_t states, const double *t, const double *p, const double *v, const double *vdot,
                   const double *multipliers, const zd_efforts *efforts, double *u);
-/* A measure at many states: `first` has the memory of the first, that of the others follows it; scratch of the size that the measures
- * declare. vdot and multipliers may be NULL if the measure does not depend on them. `inputs` are those of the system, in all states the
- * same, or (states, functions) of zd_reading; so in the two functions that follow. */
-int zd_measure_states(const zd_system *system, const double *inputs, int measure, int64_t states, const double *t, const double *p,
-                      const double *v, const double *vdot, const double *multipliers, const zd_measured *first, double *scratch);
+/* Measures at many states: `first` has the memory of the first, that of the others follows it, and components of several measures follow one
+ * another, (states, size of all); scratch of the size that the measures declare. vdot and multipliers may be NULL if no measure depends on
+ * them. `inputs` are those of the system, in all states the same, or (states, functions) of zd_reading. */
+int zd_measure_states(const zd_system *system, const double *inputs, int count, const int *measures, int64_t states, const double *t,
+                      const double *p, const double *v, const double *vdot, const double *multipliers, const zd_measured *first,
+                      double *scratch);
 
 /* The terms in `want` at many states t (states,), p (states, nq), v (states, nv): `first` has the memory of the first, the others follow
  * it, (states, size) of each term, with a single scratch. */
@@ -63,10 +59,31 @@ int zd_residuals_along(const zd_system *system, const double *inputs, int parts,
                        const double *vdot, const double *lambda, int is_rough, int64_t directions, const double *dt, const double *dp,
                        const double *dv, const double *sizes, double *derivatives);
 
-/* Values, rates, Jacobians and biases, all requested, of several measures of positions or velocities at many states; their components follow
- * one another, (states, size of all) of each, of Jacobians (states, size of all, nv). */
-int zd_measure_rates(const zd_system *system, const double *inputs, int count, const int *measures, int64_t states, const double *t,
-                     const double *p, const double *v, const zd_measured *first, double *scratch);
+/* A motion at many states, in the system's coordinates. */
+typedef struct zd_given_motion {
+    int64_t states;
+    const double *t, *p, *v, *vdot;     /* (states,), (states, nq), (states, nv), (states, nv) */
+    const double *force;    /* (states, nv): f - d; NULL: the system's */
+    int efforts;
+    const double *rows;     /* (states, efforts, nv): derivatives of the rates along which efforts act, with respect to v */
+    const double *weight;   /* (efforts,): magnitudes of efforts that count alike */
+    double length;          /* m: characteristic length */
+    const double *scale, *inverse_scale;    /* (nv,): characteristic scale of each velocity, and its inverse */
+} zd_given_motion;
+
+typedef struct zd_needed_efforts {
+    double *effort, *multipliers;       /* (states, efforts), (states, m) */
+    double *residual;       /* (states,) N/sqrt(kg): norm in the mass metric of the force that the efforts do not give */
+    double *wanted;         /* (states,) N/sqrt(kg): norm in the mass metric of the force that they should give */
+    double *power;          /* (states,) W: of all efforts */
+    int *rank;              /* (states,): number of independent efforts */
+    int64_t sample;         /* the last one that was examined */
+} zd_needed_efforts;
+
+/* Efforts that drive a given motion, and its multipliers. More efforts than freedoms have the least sum of squares, in units of their
+ * weights; with fewer the residual is the least. Returns ZD_DONE, ZD_BAD_START if the motion violates constraints, ZD_NOT_DEFINITE if a
+ * motion that they allow has no mass, ZD_NO_MEMORY or ZD_CALLBACK. */
+int zd_inverse_dynamics(const zd_system *system, const zd_given_motion *given, zd_needed_efforts *to);
 /* Projects p and v in place onto the constraints by the corrections of `settings`. Coordinates and velocities with nonzero hold_p, hold_v
  * are held fixed (either may be NULL); iterations may be NULL. */
 int zd_project(const zd_system *system, const zd_settings *settings, double t, double *p, double *v,

@@ -69,7 +69,7 @@ static void read_measures(const zd_system *system, const double *p, const double
     double *scratch = calloc((size_t)system->measures->scratch + 1, sizeof *scratch);
     for (int i = 0; i < count && i < 100; i++) {
         double *value = calloc((size_t)system->measures->measure[i].size, sizeof *value), t = 0;
-        zd_measure_states(system, NULL, i, 1, &t, p, v, zeros, zeros + system->nv, &(zd_measured){.value = value}, scratch);
+        zd_measure_states(system, NULL, 1, &i, 1, &t, p, v, zeros, zeros + system->nv, &(zd_measured){.value = value}, scratch);
         free(value);
     }
     free(zeros);

@@ -386,7 +386,8 @@ static void operate(input *in, const zd_system *system, const zd_settings *setti
     double t = below(in, 4) ? 0 : number(in);
     switch (below(in, 3)) {
     case 0:
-        status = zd_acceleration(system, settings->formulation, settings->on_singular, t, p, v, vdot, multipliers, NULL, message, size);
+        status = zd_accelerations(system, settings->formulation, settings->on_singular, 1, &t, p, v, vdot, multipliers, NULL, NULL, message,
+                                  size);
         break;
     case 1:
         status = zd_project(system, settings, t, p, v, below(in, 2) ? hold_p : NULL, below(in, 2) ? hold_v : NULL,

@@ -11,6 +11,7 @@ ORDER = (
     ("formulations/sparse", "step_limits"),
     ("formulations",),
     ("motion",),
+    ("analysis",),
     ("integrators", "safeguards"),
     ("integrators/radau", "corrections", "state"),
     ("paths",),

@@ -42,7 +42,7 @@ from .callbacks import CALLBACK_CODE, PythonCore, Watcher
 from .inputs import Following, Inputs
 from .known_events import KnownEvent
 from .measures import MAX_LEAST, Acting, Outputs
-from .operations import acceleration, accelerations, project, states_between
+from .operations import acceleration, accelerations, needed_efforts, project, states_between
 from .packed_layout import CONSTANT, DIAGONAL, PACKED, Packing
 from .perturbation import PerturbedCore, perturbed
 from .records import COUNTS, Record, row_bytes

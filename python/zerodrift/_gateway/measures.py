@@ -13,6 +13,7 @@ from ..errors import WrongValue
 from .base import doubles, text
 
 MAX_LEAST = lib.ZD_MAX_LEAST     # constraints: with more of them, reactions are not the least ones
+PARTS = ("value", "rate", "row", "bias")        # in the order of zd_measured
 DEPENDS = {lib.ZD_OF_POSITIONS: "positions", lib.ZD_OF_VELOCITIES: "velocities", lib.ZD_OF_ACCELERATIONS: "accelerations"}
 
 
@@ -87,7 +88,6 @@ class Measuring:
         values = np.zeros((k, size, self.m) if wanted == "redundant" else (k, size))
         if wanted == "least":
             values = np.array(multipliers)
-        scratch = np.zeros(max(1, self.c.measures.scratch))
         out = ffi.new("zd_measured *", {wanted: doubles(values, values.size, writable=True), "is_least": is_least,
                                         "efforts": acting.c if acting else ffi.NULL})
         inputs = core.initial_inputs()
@@ -95,33 +95,31 @@ class Measuring:
             u = core.read_given(t, p, v, vdot, np.zeros((k, 0)) if multipliers is None else multipliers, acting=acting,
                                 is_own=True)
             inputs = doubles(u, u.size)
-        status = lib.zd_measure_states(core.c, inputs, index, k, doubles(t, k),
-                                       doubles(p, k * self.nq), doubles(v, k * self.nv),
-                                       given(vdot, k * self.nv), given(multipliers, k * self.m), out,
-                                       doubles(scratch, scratch.size, writable=True))
-        if status:
-            raise core.error or self._lacks(index)
+        core._measure((index,), inputs, (t, p, v), out, given(vdot, k * self.nv), given(multipliers, k * self.m))
         return values
 
     def measure_at(self, index: int, t: float, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
-        """Value (size,), rate (size,), jacobian (size, nv), bias (size,) of a measure of positions or velocities."""
+        """Value (size,), rate (size,), row (size, nv), bias (size,) of a measure of positions or velocities."""
         return {name: array[0] for name, array in self.measure_rates((index,), np.array([float(t)]), p, v).items()}
 
-    def measure_rates(self, indices: Sequence[int], t: np.ndarray, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
-        """Values of several measures, stacked, at many states: (k, size), with rates, and Jacobians (k, size, nv)."""
+    def measure_rates(self, indices: Sequence[int], t: np.ndarray, p: np.ndarray, v: np.ndarray,
+                      parts: Sequence[str] = PARTS) -> dict[str, np.ndarray]:
+        """Values of several measures, stacked, at many states: (k, size), rates, rows (k, size, nv): the parts wanted."""
         core, k, size = self.for_run(), len(t), sum(self.measure_size(index) for index in indices)
-        arrays = {name: np.zeros((k, size)) for name in ("value", "rate", "bias")} | {"jacobian": np.zeros((k, size, self.nv))}
-        out = ffi.new("zd_measured *", {name: doubles(array, array.size, writable=True) for name, array in arrays.items()})
-        scratch = ffi.new("double[]", max(1, self.c.measures.scratch))
-        status = lib.zd_measure_rates(core.c, core.initial_inputs(), len(indices), ffi.new("int[]", list(indices)), k,
-                                      doubles(t, k), doubles(p, k * self.nq), doubles(v, k * self.nv), out, scratch)
-        if status:
-            raise core.error or self._lacks(indices[0])
+        arrays = {part: np.empty((k, size, self.nv)) if part == "row" else np.zeros((k, size)) for part in parts}
+        out = ffi.new("zd_measured *", [doubles(arrays[part], arrays[part].size, writable=True) if part in arrays else ffi.NULL
+                                        for part in PARTS])
+        core._measure(indices, core.initial_inputs(), (t, p, v), out)
         return arrays
 
-    def _lacks(self, index: int) -> ValueError:
-        return WrongValue(f"measure {text(self.c.measures.measure[index].name)} needs accelerations and multipliers",
-                          "not-available")
+    def _measure(self, indices: Sequence[int], inputs: Any, states: tuple[np.ndarray, ...], out: Any, vdot: Any = ffi.NULL,
+                 multipliers: Any = ffi.NULL) -> None:
+        """`zd_measure_states` of the system for one run."""
+        k, which, scratch = len(states[0]), ffi.new("int[]", indices), ffi.new("double[]", max(1, self.c.measures.scratch))
+        at = [doubles(each, k * size) for each, size in zip(states, (1, self.nq, self.nv), strict=True)]
+        if lib.zd_measure_states(self.c, inputs, len(which), which, k, *at, vdot, multipliers, out, scratch):
+            raise self.error or WrongValue(f"measure {text(self.c.measures.measure[indices[0]].name)} needs accelerations and "
+                                           "multipliers", "not-available")
 
 
 class Outputs:

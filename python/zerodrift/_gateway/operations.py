@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -42,32 +43,53 @@ def states_between(core: CoreSystem, settings: Any, t: np.ndarray, p: np.ndarray
 
 def acceleration(core: CoreSystem, formulation: int, on_singular: int, t: float, p: np.ndarray,
                  v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """`zd_acceleration`: vdot (nv,) and multipliers (m,)."""
-    core = core.for_run()
-    vdot, multipliers, message = np.empty(core.nv), np.empty(core.m), ffi.new("char[]", MESSAGE_SIZE)
-    status = lib.zd_acceleration(core.c, formulation, on_singular, t, doubles(p, core.nq), doubles(v, core.nv),
-                                 doubles(vdot, core.nv, writable=True), doubles(multipliers, core.m, writable=True),
-                                 ffi.NULL, message, MESSAGE_SIZE)
-    if status:
-        raise core.error or error_of(status, text(message))
-    return vdot, multipliers
+    """Accelerations vdot (nv,) and multipliers (m,) at a state."""
+    vdot, multipliers, _ = accelerations(core, formulation, on_singular, np.array([float(t)]), p, v)
+    return vdot[0], multipliers[0]
 
 
-def accelerations(core: CoreSystem, formulation: int, on_singular: int, t: np.ndarray, p: np.ndarray,
-                  v: np.ndarray, *, is_own: bool = False, are_deficient: np.ndarray | None = None) -> np.ndarray:
-    """`zd_accelerations`: vdot (k, nv) at t (k,), p (k, nq), v (k, nv).
+def accelerations(core: CoreSystem, formulation: int, on_singular: int, t: np.ndarray, p: np.ndarray, v: np.ndarray, *,
+                  is_own: bool = False) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """`zd_accelerations`: vdot (k, nv) and multipliers (k, m), which are a choice where flagged, at t (k,), p (k, nq), v (k, nv).
 
-    is_own: the system's data belong to the caller. are_deficient (k,) of intc <- 1 where some constraints depend on others.
+    is_own: the system's data belong to the caller.
     """
     core, k = core if is_own else core.for_run(), len(t)
     vdot, multipliers, message = np.empty((k, core.nv)), np.empty((k, core.m)), ffi.new("char[]", MESSAGE_SIZE)
-    flags = np.zeros(k, dtype=np.intc) if are_deficient is None else are_deficient
-    status = lib.zd_accelerations(core.c, formulation, on_singular, k, doubles(t, k), doubles(p, p.size), doubles(v, v.size),
-                                  doubles(vdot, vdot.size, writable=True), doubles(multipliers, multipliers.size, writable=True),
-                                  ffi.from_buffer("int[]", flags, require_writable=True), message, MESSAGE_SIZE)
+    flags = np.zeros(k, dtype=np.intc)
+    status = lib.zd_accelerations(core.c, formulation, on_singular, k, doubles(t, k), doubles(p, k * core.nq),
+                                  doubles(v, k * core.nv), doubles(vdot, vdot.size, writable=True),
+                                  doubles(multipliers, multipliers.size, writable=True),
+                                  ffi.from_buffer("int[]", flags, require_writable=True), ffi.NULL, message, MESSAGE_SIZE)
     if status:
         raise core.error or error_of(status, text(message))
-    return vdot
+    return vdot, multipliers, flags != 0
+
+
+def needed_efforts(core: CoreSystem, states: Sequence[np.ndarray], rows: np.ndarray, weight: np.ndarray, length: float,
+                   scale: np.ndarray, force: np.ndarray | None) -> list[np.ndarray] | int:
+    """`zd_inverse_dynamics` at states t (k,), p (k, nq), v (k, nv), vdot (k, nv).
+
+    Efforts act along quantities with these rows (k, j, nv) and are weighted (j,); length and scale (nv,) are characteristic; the
+    force (k, nv) replaces that of the system. Efforts (k, j), multipliers (k, m), norms of the force that efforts do not give and
+    that they should give (k,), their power (k,) and rank (k,); or the index of a state that violates constraints, or where an
+    allowed motion has no mass.
+    """
+    core, (k, j, _) = core.for_run(), rows.shape
+    found = [np.empty(shape) for shape in ((k, j), (k, core.m), k, k, k)]
+    to = ffi.new("zd_needed_efforts *", [doubles(each, each.size, writable=True) for each in found])
+    found.append(rank := np.empty(k, dtype=np.intc))
+    to.rank = ffi.from_buffer("int[]", rank, require_writable=True)
+    *moving, forces, along, weights, scales, inverse = (doubles(each, each.size) for each in map(
+        np.ascontiguousarray, (*states, rows if force is None else force, rows, weight, scale, 1 / scale)))
+    motion = ffi.new("zd_given_motion *",
+                     (k, *moving, ffi.NULL if force is None else forces, j, along, weights, length, scales, inverse))
+    status = lib.zd_inverse_dynamics(core.c, motion, to)
+    if status in (lib.ZD_BAD_START, lib.ZD_NOT_DEFINITE):
+        return to.sample
+    if status:
+        raise core.error or error_of(status, "the system's evaluation failed")
+    return found
 
 
 def project(core: CoreSystem, settings: Any, t: float, p: np.ndarray, v: np.ndarray,

@@ -190,9 +190,9 @@ class CoreSystem(Measuring):
             p = np.array(p).reshape(len(t), -1)
             for first in self.quaternions:
                 p[:, first:first + 4] /= np.linalg.norm(p[:, first:first + 4], axis=1, keepdims=True)
-            status = lib.zd_read_solved(core.c, row_named("formulations", "augmented"), len(t), doubles(t, len(t)),
-                                        doubles(p, p.size), doubles(v, v.size), doubles(u, u.size, writable=True), message,
-                                        MESSAGE_SIZE)
+            status = lib.zd_accelerations(core.c, row_named("formulations", "augmented"), lib.ZD_CONTINUE, len(t),
+                                          doubles(t, len(t)), doubles(p, p.size), doubles(v, v.size), *[ffi.NULL] * 3,
+                                          doubles(u, u.size, writable=True), message, MESSAGE_SIZE)
             if status:
                 raise core.error or error_of(status, text(message))
         return u

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
 from .. import _check
-from ..errors import AccuracyWarning, InconsistentStart, WrongType, WrongValue
+from .._gateway import needed_efforts
+from ..errors import AccuracyWarning, InconsistentStart, SingularSystem, WrongType, WrongValue
 from ..systems.base import BaseSystem, Makes, core_of, system_of
 from . import read_forces
 from .effort_result import Efforts
 from .kinematic_result import Kinematics
 from .names import dominant
-from .quantities import components, conjugate, find, names_of, rates_of, values_of
-from .state import State, scales, states
-from .tangent import DEPENDENT, Tangent, multipliers
+from .quantities import components, conjugate, names_of, rates_of, values_of
+from .state import State, scales, small_core, state
+from .tangent import NO_MASS, Tangent
 
 VIOLATION = 1e-6        # relative to the size: larger violations of the constraints by the given motion are an error
 UNDRIVEN = 1e-9         # relative to the forces: a smaller residual is rounding
@@ -82,7 +83,7 @@ def inverse_dynamics(system: Any, motion: Any, p: Any = None, v: Any = None, vdo
             raise WrongType("p, v and vdot must be left out with what zd.kinematics returned", "conflicting-arguments")
         system, names = _in_coordinates_of(motion, given), list(motion.prescribed) if names is None else names
         samples = motion.t, motion.p, motion.v, motion.vdot
-        if (np.isfinite(motion.p).all(axis=1) & ~np.isfinite(motion.v).all(axis=1)).any():
+        if (np.isfinite(motion.p[:, :1]) & ~np.isfinite(motion.v[:, :1])).any():
             raise WrongValue("motion must have rates, and these positions have none: give t or speed to zd.kinematics",
                              "missing-argument")
     else:
@@ -133,84 +134,53 @@ def _weights(given: Any, names: list[str]) -> dict[str, float]:
 
 def _solved(system: BaseSystem, samples: tuple[np.ndarray, ...], names: list[str], weights: Mapping[str, float]) -> Efforts:
     """Efforts and multipliers at all samples."""
-    t, p, v, vdot = samples
-    k, undriven, along = len(t), {}, tuple(conjugate(system, name) for name in names)
-    lam, residual, rank, power = np.full((k, system.m), np.nan), np.full(k, np.nan), np.zeros(k, dtype=int), np.full(k, np.nan)
-    known = np.flatnonzero(np.isfinite(np.hstack([p, v, vdot])).all(axis=1))
-    at_known = states(system, t[known], p[known], v[known])
-    sizes = [len(find(at, name, "efforts").row) for at in at_known[:1] for name in along]
-    G = rates_of(system, along, "efforts", t[known], p[known], v[known])["row"] if sizes else np.zeros((len(known), 0, system.nv))
-    weight = np.repeat([weights.get(name, 1.0) for name in names], sizes or 0)
-    u = np.full((k, len(weight)), np.nan)
-    for i, at, rows in zip(known, at_known, G, strict=True):
-        _check_motion(at, vdot[i])
-        V = Tangent(at).velocities
-        if core_of(system).functions:
-            at = _with_reactions(at, V, vdot[i], along, rows, weight)
-        u[i], lam[i], left, rank[i] = _at(at, V, vdot[i], rows, weight)
-        residual[i], power[i] = np.linalg.norm(left), u[i] @ (rows @ v[i])
-        if _is_missing(residual[i], at, V, vdot[i]):
-            undriven[dominant(at, at.A @ (V @ left))] = residual[i]
+    core, along, k = small_core(system), tuple(conjugate(system, name) for name in names), len(samples[0])
+    finite = np.isfinite(np.hstack(samples[1:]))
+    known = slice(None) if finite.all() else finite.all(axis=1)
+    t, p, v, vdot = at = [each[known] for each in samples]
+    sizes = [system._watching.size(name) for name in along]
+    weight = np.array([weights.get(name, 1.0) for name, size in zip(names, sizes, strict=True) for _ in range(size)])
+    G = rates_of(system, along, "efforts", t, p, v, ["row"])["row"] if names else np.empty(0)
+    G = G.reshape(len(t), len(weight), system.nv)
+    scale = scales(system, (p if len(p) else samples[1])[0])
+
+    def needed(which: slice, force: np.ndarray | None) -> list[np.ndarray]:
+        found = needed_efforts(core, [each[which] for each in at], G[which], weight, scale.length, scale.v, force)
+        if isinstance(found, int):
+            at_fault = [each[which][found] for each in at]
+            _refuse(state(system, *at_fault[:3]), at_fault[3])
+        return found
+
+    def with_reactions(i: int) -> np.ndarray:
+        """The generalized forces (nv,) with those of user functions that read the reactions of this motion."""
+        def respond(force: np.ndarray) -> read_forces.Motion:
+            u, lam, *_ = needed(slice(i, i + 1), force[None])
+            return vdot[i], lam[0], u[0]
+
+        return read_forces.solved(state(system, t[i], p[i], v[i]), along, respond)[1]
+
+    force = np.array([with_reactions(i) for i in range(len(t))]) if core.functions else None
+    found = u, _, residual, wanted, *_ = needed(slice(None), force)
+    undriven: dict[str, float] = {}
+    for i in np.flatnonzero(residual > UNDRIVEN * wanted):
+        here = state(system, t[i], p[i], v[i])
+        here = here if force is None else here._replace(force=force[i])
+        undriven |= _missing(here, vdot[i], G[i].T @ u[i])
     if undriven:
         subject = f"the efforts {', '.join(names)} cannot drive" if names else "nothing drives"
         warnings.warn(f"{subject} this motion of {system.name}: a force of up to "
                       f"{max(undriven.values()):.3g} N/sqrt(kg) in the mass metric is missing at {', '.join(undriven)}",
                       AccuracyWarning, stacklevel=3)
-    efforts = _by_name(names, np.split(u, np.cumsum(sizes)[:-1], axis=1) if sizes else [np.full((k, 1), np.nan) for _ in names])
+    whole = [np.full((k, *each.shape[1:]), np.nan) for each in found[:-1]] + [np.zeros(k, dtype=int)]
+    for each, values in zip(whole, found, strict=True):
+        each[known] = values
+    u, lam, residual, _, power, rank = whole
+    efforts = _by_name(names, [u[:, end - size:end] for size, end in zip(sizes, np.cumsum(sizes), strict=True)])
     return Efforts(system, samples, lam, efforts, (list(along), u), residual=residual, power=power, rank=rank)
 
 
-def _at(at: State, V: np.ndarray, vdot: np.ndarray, G: np.ndarray,
-        weight: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, int]:
-    """Efforts, multipliers, the residual on the tangent space and the rank of the efforts there, at one sample.
-
-    An effort that the constraints take up does not count: its part on the tangent space is rounding of its whole.
-    """
-    wanted = at.M @ vdot - at.force
-    acting = V.T @ G.T * weight
-    values = np.linalg.svd(acting, compute_uv=False) if acting.size else np.zeros(0)
-    dependent = DEPENDENT * float((weight * _sizes(at, V, G)).max(initial=0.0))
-    largest = values.max(initial=0.0)
-    u = weight * np.linalg.lstsq(acting, V.T @ wanted, rcond=dependent / largest)[0] if largest > dependent else np.zeros(len(G))
-    left = V.T @ (wanted - G.T @ u)
-    rank = int((values > dependent).sum())
-    return u, multipliers(at, G.T @ u - wanted), left, rank
-
-
-def _with_reactions(at: State, V: np.ndarray, vdot: np.ndarray, along: tuple[str, ...], G: np.ndarray,
-                    weight: np.ndarray) -> State:
-    """The state with the forces of user functions that read the reactions of this motion."""
-    def respond(force: np.ndarray) -> read_forces.Motion:
-        u, lam, *_ = _at(at._replace(force=force), V, vdot, G, weight)
-        return vdot, lam, u
-
-    return at._replace(force=read_forces.solved(at, along, respond)[1])
-
-
-def _sizes(at: State, V: np.ndarray, G: np.ndarray) -> np.ndarray:
-    """Characteristic sizes (j,) of what efforts along the rows G (j, nv) do to the motions V (nv, k), wherever they stand.
-
-    A row counts as at least one radian or characteristic length: at a dead point it may be rounding itself.
-    """
-    scale = scales(at.system, at.p)
-    rows = np.maximum(np.abs(G * scale.v).max(axis=1, initial=0.0), min(scale.length, 1.0))
-    return rows * float(np.abs(V / scale.v[:, None]).max(initial=0.0))
-
-
-def _is_missing(residual: float, at: State, V: np.ndarray, vdot: np.ndarray) -> bool:
-    """True if the residual exceeds the rounding error of the forces on the tangent space.
-
-    Magnitudes of their terms before these cancel are evaluated only where the forces themselves are too small to explain it.
-    """
-    inertial, V = np.abs(at.M) @ np.abs(vdot), np.abs(V.T)
-    if residual <= UNDRIVEN * np.linalg.norm(V @ (inertial + np.abs(at.force))):
-        return False
-    size = float(np.linalg.norm(V @ (inertial + np.maximum(at.magnitudes, np.abs(at.force)))))
-    return residual > UNDRIVEN * (size or 1.0)
-
-
-def _check_motion(at: State, vdot: np.ndarray) -> None:
-    """Refuses a motion that violates the constraints."""
+def _refuse(at: State, vdot: np.ndarray) -> NoReturn:
+    """Refuses a motion that violates the constraints, or an allowed one that has no mass."""
     scale = scales(at.system, at.p)
     speed = scale.length * (1.0 + float(np.abs(at.v / scale.v).max(initial=0.0)))
     size = scale.length * (1.0 + float(np.abs(vdot / scale.v).max(initial=0.0))) + speed**2 / scale.length
@@ -221,6 +191,16 @@ def _check_motion(at: State, vdot: np.ndarray) -> None:
             names = [each.name for each in at.system.constraints]
             raise InconsistentStart(f"the motion must satisfy the constraints {what}, of {at.system.name}: at t = {at.t:g} it "
                                     f"violates {names[int(np.abs(left).argmax())]!r} by {worst:.3g}")
+    raise SingularSystem(NO_MASS)
+
+
+def _missing(at: State, vdot: np.ndarray, effort: np.ndarray) -> dict[str, float]:
+    """The residual by the name of the coordinate that it moves most; empty if it is the rounding error of terms of the forces."""
+    V = Tangent(at).velocities
+    left = V.T @ (at.M @ vdot - at.force - effort)
+    size = np.linalg.norm(np.abs(V.T) @ (np.abs(at.M) @ np.abs(vdot) + np.maximum(at.magnitudes, np.abs(at.force))))
+    residual = np.linalg.norm(left)
+    return {dominant(at, at.A @ (V @ left)): residual} if residual > UNDRIVEN * (size or 1.0) else {}
 
 
 def _by_name(names: list[str], found: list[np.ndarray]) -> dict[str, np.ndarray]:

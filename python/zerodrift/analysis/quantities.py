@@ -17,7 +17,6 @@ AXES = "xyz"
 # Coordinates or speeds of a joint or motor that its efforts act along, and their units
 EFFORTS = {"torque": ("angle", "speed"), "force": ("displacement", "length", "speed")}
 UNITS = {"torque": ("rad", "rad/s"), "force": ("m", "m/s")}
-PARTS = ("value", "rate", "bias", "row")
 
 
 class Found(NamedTuple):
@@ -40,6 +39,9 @@ class Found(NamedTuple):
     row: np.ndarray
     bias: np.ndarray
     is_velocity: bool
+
+
+PARTS = Found._fields[:-1]
 
 
 def name_of(given: Any, what: str) -> str:
@@ -65,6 +67,15 @@ def values_of(given: Any, what: str) -> dict[str, Any]:
     return {name_of(key, f"a key of {what}"): value for key, value in given.items()}
 
 
+def _place(system: BaseSystem, name: str, what: str) -> Any:
+    """Index of a measure or a component; None: no measure has that name."""
+    place = system._watching.find(name)
+    if place is not None and system._watching.core.measure_depends(place.number) == "accelerations":
+        raise WrongValue(f"{what} must be a quantity of positions or velocities, and {name!r} depends on accelerations or "
+                         "reactions", "wrong-measure")
+    return place
+
+
 def find(at: State, name: str, what: str) -> Found:
     """A measure of positions or velocities, a coordinate or a velocity, at a state.
 
@@ -74,15 +85,10 @@ def find(at: State, name: str, what: str) -> Found:
         If nothing has that name, or it depends on accelerations or reactions.
     """
     system, watching = at.system, at.system._watching
-    place = watching.find(name)
+    place = _place(system, name, what)
     if place is not None:
-        if watching.core.measure_depends(place.number) == "accelerations":
-            raise WrongValue(f"{what} must be a quantity of positions or velocities, and {name!r} depends on accelerations or "
-                             "reactions", "wrong-measure")
-        found = watching.core.measure_at(place.number, at.t, np.ascontiguousarray(at.p), np.ascontiguousarray(at.v))
-        part = slice(None) if place.component is None else slice(place.component, place.component + 1)
-        is_velocity = watching.core.measure_depends(place.number) == "velocities"
-        return Found(*(found[key][part] for key in ("value", "rate", "jacobian", "bias")), is_velocity)
+        found = rates_of(system, (name,), what, np.array([float(at.t)]), at.p[None], at.v[None])
+        return Found(*(each[0] for each in found.values()), watching.core.measure_depends(place.number) == "velocities")
     coordinates, velocities = ([each.name for each in group] for group in (system.coordinates, system.velocities))
     if name in coordinates:
         return _coordinate(at, coordinates.index(name))
@@ -99,26 +105,25 @@ def rows_of(at: State, names: Iterable[str]) -> np.ndarray:
 
 
 def rates_of(system: BaseSystem, names: tuple[str, ...], what: str, t: np.ndarray, p: np.ndarray,
-             v: np.ndarray | None = None) -> dict[str, np.ndarray]:
+             v: np.ndarray | None = None, parts: Iterable[str] = PARTS) -> dict[str, np.ndarray]:
     """Values, rates, biases (k, size) and rows (k, size, nv) of quantities, stacked, at states t (k,), p (k, nq), v (k, nv).
 
-    `v` left out: at rest.
+    `v` left out: at rest. `parts`: those of them that are wanted.
     """
     watching, v = system._watching, np.zeros((len(t), system.nv)) if v is None else v
-    places = [watching.find(name) for name in names]
+    places = [_place(system, name, what) for name in names]
     if any(place is None for place in places):      # coordinates and velocities
         found = [[find(state(system, float(at_t), at_p, at_v), name, what) for name in names]
                  for at_t, at_p, at_v in zip(t, p, v, strict=True)]
-        return {key: np.array([np.concatenate([getattr(one, key) for one in of_state]) for of_state in found]) for key in PARTS}
-    core = watching.core
-    rates = core.measure_rates([place.number for place in places], t, np.ascontiguousarray(p), np.ascontiguousarray(v))
-    rates["row"] = rates.pop("jacobian")
+        return {key: np.array([np.concatenate([getattr(one, key) for one in of_state]) for of_state in found]) for key in parts}
+    core, numbers = watching.core, [place.number for place in places]
+    rates = core.measure_rates(numbers, t, np.ascontiguousarray(p), np.ascontiguousarray(v), parts)
     if all(place.component is None for place in places):
         return rates
     ends = np.cumsum([core.measure_size(place.number) for place in places])
     columns = np.concatenate([np.arange(first, end) if place.component is None else [first + place.component]
                               for place, first, end in zip(places, [0, *ends[:-1]], ends, strict=True)])
-    return {key: rates[key][:, columns] for key in PARTS}
+    return {part: each[:, columns] for part, each in rates.items()}
 
 
 def _coordinate(at: State, i: int) -> Found:

@@ -24,6 +24,9 @@ DEPENDENT = 1e-9        # of the largest singular value of scaled rows: what cou
 WELL_INDEPENDENT = 1e6  # largest entry of the inverse of the products of unit rows: errors are 1e-10 of a step
 MASSLESS = 1e-13        # of the largest: mass of a motion that counts as none
 
+NO_MASS = ("a motion that the constraints allow has no mass: give mass and inertia to the bodies that take part in it, or "
+           "constrain them")
+
 
 def norms(rows: np.ndarray) -> np.ndarray:
     """Euclidean norms (m,) of the rows of a matrix (m, n)."""
@@ -63,8 +66,7 @@ def mass_orthonormal(Z: np.ndarray, M: np.ndarray) -> np.ndarray:
     """
     weights, axes = np.linalg.eigh(Z.T @ M @ Z)
     if weights.size and not weights[0] > MASSLESS * weights[-1]:
-        raise SingularSystem("a motion that the constraints allow has no mass: give mass and inertia to the bodies that take "
-                             "part in it, or constrain them")
+        raise SingularSystem(NO_MASS)
     return Z @ (axes / np.sqrt(weights)) @ axes.T
 
 
@@ -139,16 +141,8 @@ def multipliers(at: State, right: np.ndarray, rows: np.ndarray | None = None) ->
     if not len(rows):
         return np.zeros((0, *right.shape[1:]))
     scale = scales(at.system, at.p).v
-    scaled, given = rows * scale, (scale * right.T).T
-    length = row_lengths(scaled)
-    unit = scaled / length[:, None]
-    inverse = inverse_of_products(unit)
-    if inverse is None:
-        size = _sizes_by_mass(at, rows, scale)
-        return (np.linalg.lstsq((scaled / size[:, None]).T, given, rcond=DEPENDENT)[0].T / size).T
-    found = inverse @ (unit @ given)
-    found = found + inverse @ (unit @ (given - unit.T @ found))       # as accurate as without normal equations
-    return (found.T / length).T
+    size = _sizes_by_mass(at, rows, scale)
+    return (np.linalg.lstsq((rows * scale / size[:, None]).T, (scale * right.T).T, rcond=DEPENDENT)[0].T / size).T
 
 
 def _sizes_by_mass(at: State, rows: np.ndarray, scale: np.ndarray) -> np.ndarray:

@@ -87,12 +87,18 @@ class Watching:
         found = self.find(name)
         return None if found is None else self._measures[found.number].unit
 
+    def size(self, name: str) -> int:
+        """Number of components of what has that name, one if that is not a measure."""
+        found = self.find(name)
+        return 1 if found is None or found.component is not None else self._measures[found.number].size
+
     def acting(self, names: Iterable[str], efforts: np.ndarray) -> Acting:
         """Efforts (k, n) along quantities. Those along coordinates that are not measures act in no reaction."""
         along: list[tuple[int, ...] | None] = []
-        for place in map(self.find, names):
-            size = 1 if place is None or place.component is not None else self._measures[place.number].size
-            along += [place and (place.number, place.component or i, self.core.joint_of(place.number)) for i in range(size)]
+        for name in names:
+            place = self.find(name)
+            along += [place and (place.number, place.component or i, self.core.joint_of(place.number))
+                      for i in range(self.size(name))]
         return Acting(list(filter(None, along)), efforts[:, [each is not None for each in along]])
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -120,9 +126,8 @@ class Watching:
         if known is None:
             formulation, states = _formulation(solution.settings["formulation"]), _states(solution, part)
             is_own = core is not self.core
-            flags = np.zeros(len(states[0]), dtype=np.intc)
-            vdot = _gateway.accelerations(core, formulation, 1, *states, is_own=is_own, are_deficient=flags)
-            known, chosen = (vdot, np.array(solution.multipliers[part])), flags != 0
+            vdot, _, chosen = _gateway.accelerations(core, formulation, 1, *states, is_own=is_own)
+            known = vdot, np.array(solution.multipliers[part])
             if chosen.any():
                 of_chosen = [each[chosen] for each in (*states, *known)]
                 known[1][chosen] = core.measure(number, *of_chosen, is_own=is_own, wanted="least")

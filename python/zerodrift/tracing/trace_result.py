@@ -120,7 +120,7 @@ class Trace:
         place, core = self._find(name), self.system._measuring
         rest = np.zeros(core.nv)
         with np.errstate(invalid="ignore"):
-            values = np.array([core.measure_at(place.number, 0.0, p, rest)["jacobian"] @ slope
+            values = np.array([core.measure_at(place.number, 0.0, p, rest)["row"] @ slope
                                for p, slope in zip(self.p, self.slopes, strict=True)])
         return place.pick(values)
 

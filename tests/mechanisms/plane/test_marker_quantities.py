@@ -83,11 +83,11 @@ def test_a_measure_tells_its_row_and_bias(which, state):
     p, v, vdot = state
     system = quantityd(which)
     of_rate, acceleration = system._core.measure_at(1, 0.0, p, v), system.measured("accelerations", 0, p, v, vdot)
-    assert_close(of_rate["jacobian"] @ v, of_rate["value"], tol.SAME, scale=1)
-    assert_close(of_rate["jacobian"] @ vdot + of_rate["bias"], acceleration, tol.SAME, scale=1)
+    assert_close(of_rate["row"] @ v, of_rate["value"], tol.SAME, scale=1)
+    assert_close(of_rate["row"] @ vdot + of_rate["bias"], acceleration, tol.SAME, scale=1)
     of_value = system._core.measure_at(0, 0.0, p, v)
     assert_close(of_value["rate"], of_rate["value"], tol.SAME)
-    assert np.array_equal(of_value["jacobian"], of_rate["jacobian"])
+    assert np.array_equal(of_value["row"], of_rate["row"])
     assert [system._core.measure_depends(i) for i in range(3)] == ["positions", "velocities", "accelerations"]
 
 
@@ -103,7 +103,7 @@ def test_components_are_read_without_zeros(which, ends, state):
             if at >= 0:
                 row[at : at + 3] += part
         assert found.value[i] == expected["value"][0]
-        assert_close(row, expected["jacobian"][0], tol.SAME)
+        assert_close(row, expected["row"][0], tol.SAME)
 
 
 # ---- the tables ----

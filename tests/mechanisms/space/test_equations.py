@@ -114,7 +114,7 @@ def test_quantities(case, kind):
     def read(quantity):
         return derivative(lambda p: core.measure_at(index[f"{kind} {quantity}"], 0.0, p, v)["value"], core, p, v)
 
-    assert_close(rate["value"], value["jacobian"] @ v, 1e-13, scale=1.0)
+    assert_close(rate["value"], value["row"] @ v, 1e-13, scale=1.0)
     assert_close(rate["bias"], read("rates"), NEAR, scale=1.0)
     if kind not in SPEEDS:
         assert_close(value["rate"], read("values"), NEAR, scale=1.0)
@@ -132,7 +132,7 @@ def test_components_are_read_without_zeros(case):
             if at >= 0:
                 row[at : at + 6] += part
         assert value == expected["value"][j]
-        assert_close(row, expected["jacobian"][j], 1e-15, scale=1.0)
+        assert_close(row, expected["row"][j], 1e-15, scale=1.0)
 
 
 def test_quantities_say_what_they_are(case):

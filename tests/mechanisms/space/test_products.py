@@ -46,4 +46,4 @@ def test_accelerations_and_multipliers_are_those_of_the_stored_rows(case, formul
     vdot, multipliers = acceleration(core, number, 0, 0.0, p, v)
     for found, expected in zip((vdot, multipliers), solved(core, p, v), strict=True):
         assert_close(found, expected, REACTION)
-    assert_close(accelerations(core, number, 0, np.zeros(1), p[None], v[None])[0], vdot, SAME)
+    assert_close(accelerations(core, number, 0, np.zeros(1), p[None], v[None])[0][0], vdot, SAME)

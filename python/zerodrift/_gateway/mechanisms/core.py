@@ -62,8 +62,12 @@ class MechanismCore(CoreSystem):
     def joint_of(self, index: int) -> int:
         """As of any system; what acts along the coordinate is part of the joint's reaction."""
         along = self.measures[index]
-        reaction = ("joint force", f"{along.name.rpartition('.')[0]}.force") if along.size == 1 else None
-        return next((each.index for each in self.measures if (each.kind, each.name) == reaction), -1)
+        return self._reactions.get(f"{along.name.rpartition('.')[0]}.force", -1) if along.size == 1 else -1
+
+    @functools.cached_property
+    def _reactions(self) -> dict[str, int]:
+        """Joints by the names of their forces."""
+        return {each.name: each.index for each in self.measures if each.kind == "joint force"}
 
     @classmethod
     def _function(cls, name: str) -> Any:

@@ -189,7 +189,7 @@ class Assembly:
     def _rows_of(self, p: np.ndarray, targets: Sequence[Target]) -> np.ndarray:
         """Rows (k, nv) of targets, by scaled coordinates."""
         rest = np.zeros(self.core.nv)
-        rows = [self.core.measure_at(each.measure, self.t, p, rest)["jacobian"][each.component] for each in targets]
+        rows = [self.core.measure_at(each.measure, self.t, p, rest)["row"][each.component] for each in targets]
         return np.array(rows).reshape(-1, self.core.nv) * self.scale
 
     def _asked(self, held: Sequence[Target]) -> list[str]:
