@@ -10,7 +10,7 @@ from core_objects import linked, needs_compiler
 from support import ROOT
 
 RANK_TOLERANCE = 2.0**-23       # of rank.h: rows of which less is left follow from the others
-SMALLEST, LARGEST = 7, 60    # velocities: up to six, `schur` has no look of its own
+SMALLEST, LARGEST = 9, 60    # velocities: up to eight, `schur` has no look of its own
 MATRICES = 24
 pytestmark = needs_compiler
 
