@@ -27,7 +27,7 @@ static const double MIN_REMAINDER = 1024 * 0x1p-53;     /* relative residual nor
 static const double SMALL_PIVOT = 0x1p-20;           /* pivot of C M^-1 C^T relative to its diagonal below which too many digits are lost */
 static const double TURNED = 0.25;      /* bound of the squared sines by which Q turns: below, Q1 Q0^T + Q0 Q1^T is positive definite */
 
-enum { MOST_SIZED = 8 };    /* velocities with kernels of their size: arms of seven joints and linkages of two loops have as many */
+enum { MAX_SIZED = 8 };    /* velocities with kernels of their size: arms of seven joints and linkages of two loops have as many */
 
 typedef struct schur {
     int n, m;
@@ -52,8 +52,8 @@ static void create_matrices(zd_arena *arena, schur *self)
     self->Q = zd_arena_doubles(arena, m * n);
     self->G = zd_arena_doubles(arena, m * m);
     self->b = zd_arena_doubles(arena, m);
-    self->rows = n > MOST_SIZED ? zd_arena_doubles(arena, 4 * n > m ? 4 * n : m) : NULL;
-    self->residual = n > MOST_SIZED ? self->rows : zd_arena_doubles(arena, m);   /* residual is for solves, rows for factorizations */
+    self->rows = n > MAX_SIZED ? zd_arena_doubles(arena, 4 * n > m ? 4 * n : m) : NULL;
+    self->residual = n > MAX_SIZED ? self->rows : zd_arena_doubles(arena, m);   /* residual is for solves, rows for factorizations */
     self->correction = zd_arena_doubles(arena, n);
 }
 
@@ -103,7 +103,7 @@ ZD_INLINE int factor_rows(const int n, const schur *self) { return ZD_ROWS(facto
 
 static int finds_independent(const zd_system *system)
 {
-    return system->structure != NULL || (system->nv > MOST_SIZED && zd_constraints(system) > ZD_FEW_CONSTRAINTS);
+    return system->structure != NULL || (system->nv > MAX_SIZED && zd_constraints(system) > ZD_FEW_CONSTRAINTS);
 }
 
 static zd_shares orthogonalize_all(schur *self, zd_point *point, int rows, const double *C)
@@ -150,7 +150,7 @@ static int factor_dense(schur *self, zd_point *point, const double *M)
 {
     point->failed_index = ZD_SIZED(zd_cholesky, self->n, M, self->L);
     if (point->failed_index < self->n) return ZD_NOT_DEFINITE;
-    if (self->n > MOST_SIZED) return factor_large(self, point);
+    if (self->n > MAX_SIZED) return factor_large(self, point);
     int status = zd_find_independent(point);
     if (status) return status;
     self->m = point->rows;
