@@ -7,6 +7,7 @@ import zerodrift as zd
 from analysis.random_efforts import Driven, largest_error
 from covering import draws, spread
 from support import refused
+from zerodrift.analysis.kinematic_result import Kinematics
 from zerodrift.analysis.quantities import find
 from zerodrift.analysis.state import state
 
@@ -274,3 +275,66 @@ def test_a_piston_cannot_drive_its_crank_at_a_dead_point(angle, layout):
         zd.inverse_dynamics(system, kin).power[1], rel=1e-9)
     with refused("missing-argument", "^motion must have rates, .*give t or speed to zd.kinematics"):
         zd.inverse_dynamics(system, zd.kinematics(system, {"crank.angle": [0.0, 0.5]}))
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_samples_of_one_call_are_those_of_single_calls(layout):
+    """Samples beyond a dead point, which are not known, lie between them."""
+    system = zd.models.slider_crank().system(layout)
+    t = np.linspace(0, 1, 9)
+    kin = zd.kinematics(system, {"crank.angle": lambda t: 1.0 + 0.5 * np.sin(3 * t)}, t)
+    moving = [np.array(each) for each in (kin.p, kin.v, kin.vdot)]
+    for each in moving:
+        each[4] = np.nan
+    inv = zd.inverse_dynamics(system, Kinematics(system, t, *moving, {}, ("crank.angle",)))
+    assert np.isnan(inv["crank.angle"][4])
+    assert inv.rank.tolist() == [1, 1, 1, 1, 0, 1, 1, 1, 1]
+    for i in [0, 3, 5, 8]:
+        one = zd.inverse_dynamics(system, t[i], kin.p[i], kin.v[i], kin.vdot[i], efforts=["crank.torque"])
+        assert inv["crank.angle"][i] == pytest.approx(one["crank.torque"][0], rel=1e-13)
+        assert inv.multipliers[i] == pytest.approx(one.multipliers[0], rel=1e-12, abs=1e-13)
+        assert inv.power[i] == pytest.approx(one.power[0], rel=1e-13)
+
+
+@pytest.mark.parametrize("name", ["bennett", "hookes_joint", "planetary_gear"])
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_multipliers_of_redundant_constraints_are_the_least(name, layout):
+    """In units of 1 / sqrt(C M^-1 C^T), from NumPy's least squares."""
+    system = getattr(zd.models, name)().system(layout)
+    p, v = system.start_at(0.0)
+    terms = system.evaluate(p, v)
+    vdot = np.linalg.lstsq(terms.C, terms.xi, rcond=1e-9)[0]
+    names = [each.name for each in system.velocities]
+    inv = zd.inverse_dynamics(system, 0.0, p, v, vdot, efforts=names)
+    force = np.array([inv[each][0] for each in names]) - terms.M @ vdot
+    force += (0.0 if terms.f is None else terms.f) - (0.0 if terms.d is None else terms.d)
+    size = np.sqrt(np.diag(terms.C @ np.linalg.solve(terms.M, terms.C.T)))
+    size[size < 1e-9] = 1.0     # constraints that the tree satisfies
+    expected = np.linalg.lstsq((terms.C / size[:, None]).T, force, rcond=1e-9)[0] / size
+    assert np.linalg.matrix_rank(terms.C, tol=1e-9) < system.m
+    assert inv.multipliers[0] == pytest.approx(expected, rel=1e-9, abs=1e-10 * np.abs(expected).max())
+
+
+def test_multipliers_of_redundant_constraints_of_what_has_no_mass():
+    """Norms of the constraints take the place of the metric of the masses: lambda and 2 lambda of z and 2 z make the force."""
+    def mass(p):
+        return np.diag([1.0, 0.0])
+
+    system = zd.System(["x", "z"], mass=mass, force=lambda t, p, v: np.array([0.0, -5.0]), p0=[0, 0], v0=[0, 0],
+                       constraints=lambda p: p[1] * np.array([1.0, 2.0]), jacobian=lambda p: np.array([[0.0, 1.0], [0.0, 2.0]]),
+                       xi=lambda t, p, v: np.zeros(2))
+    inv = zd.inverse_dynamics(system, 0.0, [0, 0], [0, 0], [3, 0], efforts=["x"])
+    assert inv.multipliers[0] == pytest.approx([-2.5, -1.25])
+    assert inv["x"] == pytest.approx([3.0])
+    free = zd.System(["x", "z"], mass=mass, p0=[0, 0], v0=[0, 0])
+    with refused("singular-system", "has no mass"):
+        zd.inverse_dynamics(free, 0.0, [0, 0], [0, 0], [3, 0], efforts=["x"])
+
+
+def test_a_later_sample_that_violates_a_constraint_is_named():
+    bar = zd.models.four_bar().system("joint")
+    kin = zd.kinematics(bar, {"crank.angle": np.linspace(1.6, 2.0, 5)}, speed=0.4)
+    vdot = np.array(kin.vdot)
+    vdot[3, 2] += 1.0
+    with pytest.raises(zd.InconsistentStart, match=r"\(6\), accelerations, of four_bar: at t = 0.75 it violates 'C\.[xy]' by"):
+        zd.inverse_dynamics(bar, kin.t, kin.p, kin.v, vdot, efforts=["crank.angle"])
