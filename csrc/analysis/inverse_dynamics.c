@@ -28,9 +28,9 @@ typedef struct inverse {
     double *Z, *L;          /* (r, nv), (r, r): see above, factors by zd_cholesky(); Z of a system without constraints is not set */
     double mobility;        /* the largest entry of D^-1 */
     zd_row_space acting;    /* V G^T, weighted: a column for each effort */
-    double *projected;      /* (efforts, r): G L^-1 Z */
+    double *projected;      /* (efforts + 1, r): L^-1 Z of the rows of G and of w */
     double *wanted, *right; /* (nv,): w, and G^T u - w */
-    double *along, *x;      /* (nv,) temporary */
+    double *x, *across;     /* (nv,) temporary */
     zd_row_space redundant; /* C^T in scaled velocities, where constraints are redundant, with columns divided by sizes */
     double *size;           /* (m,): these sizes, square roots of the diagonal of C M^-1 C^T; where M is singular, lengths */
 } inverse;
@@ -42,10 +42,10 @@ static inverse create(zd_arena *arena, const zd_system *system, const zd_given_m
     return (inverse){
         .given = given, .point = zd_point_create(arena, system, statistics), .n = n, .m = m,
         .rows = zd_row_space_create(arena, m, n), .length = zd_arena_doubles(arena, (size_t)m),
-        .Z = zd_arena_doubles(arena, nv * nv), .L = zd_arena_doubles(arena, nv * nv), .acting = zd_row_space_create(arena, n, count),
-        .projected = zd_arena_doubles(arena, nv * (size_t)count), .wanted = zd_arena_doubles(arena, nv), .right = zd_arena_doubles(arena, nv),
-        .along = zd_arena_doubles(arena, nv), .x = zd_arena_doubles(arena, nv), .redundant = zd_row_space_create(arena, n, m),
-        .size = zd_arena_doubles(arena, (size_t)m),
+        .Z = zd_arena_doubles(arena, nv * nv), .L = zd_arena_doubles(arena, nv * nv),
+        .acting = zd_row_space_create(arena, n, count), .projected = zd_arena_doubles(arena, nv * (size_t)(count + 1)),
+        .wanted = zd_arena_doubles(arena, nv), .right = zd_arena_doubles(arena, nv), .across = zd_arena_doubles(arena, nv),
+        .x = zd_arena_doubles(arena, nv), .redundant = zd_row_space_create(arena, n, m), .size = zd_arena_doubles(arena, (size_t)m),
     };
 }
 
@@ -62,7 +62,7 @@ static int is_violated(const inverse *self, const double *vdot)
         const double Psi = zd_row_times(&row, point->v) + (terms->Phi_t ? terms->Phi_t[k] : 0);
         if (fabs(Psi) > VIOLATION * speed || fabs(zd_row_times(&row, vdot) - (terms->xi ? terms->xi[k] : 0)) > VIOLATION * size) return 1;
     }
-    return terms->Phi && zd_largest(point->system->mh, terms->Phi) > VIOLATION * length;
+    return zd_largest(point->system->mh, terms->Phi) > VIOLATION * length;
 }
 
 /* ---- the tangent space ---- */
@@ -81,8 +81,9 @@ static void factor_constraints(inverse *self)
     }
     row = self->rows.A;
     for (int i = 0; i < m; i++, row += n) {
-        if (self->length[i] > 0) self->length[i] = fmax(self->length[i], DEPENDENT * longest);
-        for (int j = 0; self->length[i] > 0 && j < n; j++) row[j] /= self->length[i];
+        if (!(self->length[i] > 0)) continue;
+        self->length[i] = fmax(self->length[i], DEPENDENT * longest);
+        for (int j = 0; j < n; j++) row[j] /= self->length[i];
     }
     zd_row_space_factor(&self->rows, m, DEPENDENT, 0);
     self->freedoms = n - self->rows.rank;
@@ -115,23 +116,15 @@ static int find_tangent(inverse *self)
     if (zd_cholesky(k, L, L) < k) return ZD_NOT_DEFINITE;
     self->mobility = 0;
     for (int i = 0; i < k; i++) self->mobility = fmax(self->mobility, L[i * k + i]), least = fmin(least, L[i * k + i]);
-    return k && !(least > MASSLESS * self->mobility) ? ZD_NOT_DEFINITE : ZD_DONE;
+    return least > MASSLESS * self->mobility ? ZD_DONE : ZD_NOT_DEFINITE;
 }
 
-/* to (count, r) <- L^-1 Z x of forces x (count, nv) */
+/* to (count, r) <- Z x of forces x (count, nv) */
 static void project(const inverse *self, int count, const double *x, double *to)
 {
     const int n = self->n, k = self->freedoms;
     for (int j = 0; j < count; j++, x += n)
         for (int i = 0; i < k; i++) to[j * k + i] = k < n ? zd_dot(n, self->Z + i * n, x) : self->given->scale[i] * x[i];
-    zd_forward_rows(k, count, self->L, to, to);
-}
-
-/* Norm of a force in the metric of M on the tangent space, where `along` gets its components */
-static double norm_of(inverse *self, const double *force)
-{
-    project(self, 1, force, self->along);
-    return sqrt(zd_metric_dot(self->freedoms, self->L, self->along, self->along));
 }
 
 /* ---- efforts and multipliers ---- */
@@ -142,17 +135,16 @@ static void find_efforts(inverse *self, const double *rows, double *u)
 {
     const zd_given_motion *given = self->given;
     const int n = self->n, k = self->freedoms, count = given->efforts;
-    double largest = 0, *acting = self->acting.A;
+    double largest = 0, *acting = self->acting.A, *along = self->projected + count * k;
     for (int j = 0; j < count; j++)
         largest = fmax(largest, given->weight[j] * fmax(fmin(given->length, 1), zd_largest_scaled(n, rows + j * n, given->scale)));
-    project(self, count, rows, self->projected);
     for (int i = 0; i < k; i++, acting += count) {
         const double share = sqrt(self->L[i * k + i]);
         for (int j = 0; j < count; j++) acting[j] = share * given->weight[j] * self->projected[j * k + i];
-        self->along[i] *= share;
+        along[i] *= share;
     }
     zd_row_space_factor(&self->acting, k, 0, DEPENDENT * largest * sqrt(self->mobility));
-    zd_row_space_solve(&self->acting, self->along, u);
+    zd_row_space_solve(&self->acting, along, u);
     for (int j = 0; j < count; j++) u[j] *= given->weight[j];
 }
 
@@ -180,7 +172,7 @@ static void find_multipliers(inverse *self, double *lambda)
 {
     const zd_row_space *rows = &self->rows;
     const int n = self->n, m = self->m;
-    double *force = self->along;
+    double *force = self->across;
     for (int j = 0; j < n; j++) force[j] = self->given->scale[j] * self->right[j];
     if (rows->rank < m) {
         find_least(self, force, lambda);
@@ -199,20 +191,25 @@ static void solve(inverse *self, int64_t i, const zd_needed_efforts *to)
 {
     const zd_given_motion *given = self->given;
     const zd_point *point = self->point;
-    const int n = self->n, count = given->efforts;
+    const int n = self->n, k = self->freedoms, count = given->efforts;
     const double *rows = given->rows + i * count * n;
-    double *u = to->effort + i * count, *right = self->right;
+    double *u = to->effort + i * count, *right = self->right, *along = self->projected + count * k;
     zd_times_M(point, point->terms.M, given->vdot + i * n, self->wanted);
     if (!given->force) zd_point_force(point, self->x);
     zd_subtract(n, self->wanted, given->force ? given->force + i * n : self->x, self->wanted);
-    to->wanted[i] = norm_of(self, self->wanted);
+    project(self, count, rows, self->projected);
+    project(self, 1, self->wanted, along);
+    zd_forward_rows(k, count + 1, self->L, self->projected, self->projected);
+    to->wanted[i] = sqrt(zd_metric_dot(k, self->L, along, along));
     find_efforts(self, rows, u);
     to->rank[i] = self->acting.rank;
     memset(right, 0, (size_t)n * sizeof *right);
     for (int j = 0; j < count; j++) zd_add_scaled(n, right, u[j], rows + j * n);
     to->power[i] = zd_dot(n, right, point->v);
     zd_subtract(n, right, self->wanted, right);
-    to->residual[i] = norm_of(self, right);
+    project(self, 1, right, along);
+    zd_forward(k, self->L, along, along);
+    to->residual[i] = sqrt(zd_metric_dot(k, self->L, along, along));
     find_multipliers(self, to->multipliers + i * self->m);
 }
 

@@ -36,7 +36,7 @@ class Efforts:
     """
 
     def __init__(self, system: BaseSystem, samples: tuple[np.ndarray, ...], multipliers: np.ndarray,
-                 efforts: dict[str, np.ndarray], acting: tuple[list[str], np.ndarray], *,
+                 efforts: dict[str, np.ndarray], acting: tuple[tuple[str, ...], np.ndarray], *,
                  residual: np.ndarray, power: np.ndarray, rank: np.ndarray) -> None:
         self.system, self.multipliers, self.efforts = system, multipliers, efforts
         self._acting = acting

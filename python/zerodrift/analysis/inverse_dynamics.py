@@ -135,11 +135,11 @@ def _weights(given: Any, names: list[str]) -> dict[str, float]:
 def _solved(system: BaseSystem, samples: tuple[np.ndarray, ...], names: list[str], weights: Mapping[str, float]) -> Efforts:
     """Efforts and multipliers at all samples."""
     core, along, k = small_core(system), tuple(conjugate(system, name) for name in names), len(samples[0])
-    finite = np.isfinite(np.hstack(samples[1:]))
-    known = slice(None) if finite.all() else finite.all(axis=1)
+    are_known = all(np.isfinite(each).all() for each in samples[1:])
+    known = slice(None) if are_known else np.isfinite(np.hstack(samples[1:])).all(axis=1)
     t, p, v, vdot = at = [each[known] for each in samples]
     sizes = [system._watching.size(name) for name in along]
-    weight = np.array([weights.get(name, 1.0) for name, size in zip(names, sizes, strict=True) for _ in range(size)])
+    weight = np.repeat([weights.get(name, 1.0) for name in names], np.array(sizes, dtype=int))
     G = rates_of(system, along, "efforts", t, p, v, ["row"])["row"] if names else np.empty(0)
     G = G.reshape(len(t), len(weight), system.nv)
     scale = scales(system, (p if len(p) else samples[1])[0])
@@ -171,26 +171,27 @@ def _solved(system: BaseSystem, samples: tuple[np.ndarray, ...], names: list[str
         warnings.warn(f"{subject} this motion of {system.name}: a force of up to "
                       f"{max(undriven.values()):.3g} N/sqrt(kg) in the mass metric is missing at {', '.join(undriven)}",
                       AccuracyWarning, stacklevel=3)
-    whole = [np.full((k, *each.shape[1:]), np.nan) for each in found[:-1]] + [np.zeros(k, dtype=int)]
-    for each, values in zip(whole, found, strict=True):
-        each[known] = values
-    u, lam, residual, _, power, rank = whole
+    if not are_known:
+        known_alone, found = found, [np.full((k, *each.shape[1:]), np.nan) for each in found[:-1]] + [np.zeros(k, dtype=np.intc)]
+        for each, values in zip(found, known_alone, strict=True):
+            each[known] = values
+    u, lam, residual, _, power, rank = found
     efforts = _by_name(names, [u[:, end - size:end] for size, end in zip(sizes, np.cumsum(sizes), strict=True)])
-    return Efforts(system, samples, lam, efforts, (list(along), u), residual=residual, power=power, rank=rank)
+    return Efforts(system, samples, lam, efforts, (along, u), residual=residual, power=power, rank=rank)
 
 
 def _refuse(at: State, vdot: np.ndarray) -> NoReturn:
     """Refuses a motion that violates the constraints, or an allowed one that has no mass."""
     scale = scales(at.system, at.p)
-    speed = scale.length * (1.0 + float(np.abs(at.v / scale.v).max(initial=0.0)))
-    size = scale.length * (1.0 + float(np.abs(vdot / scale.v).max(initial=0.0))) + speed**2 / scale.length
+    speed = scale.length * (1.0 + np.abs(at.v / scale.v).max(initial=0.0))
+    size = scale.length * (1.0 + np.abs(vdot / scale.v).max(initial=0.0)) + speed**2 / scale.length
     for what, left, by in (("(3), positions", at.Phi, scale.length), ("(5), velocities", at.C @ at.v + at.Phi_t, speed),
                            ("(6), accelerations", at.C @ vdot - at.xi, size)):
-        worst = float(np.abs(left).max(initial=0.0))
+        worst = np.abs(left).max(initial=0.0)
         if worst > VIOLATION * by:
-            names = [each.name for each in at.system.constraints]
+            name = at.system.constraints[np.abs(left).argmax()].name
             raise InconsistentStart(f"the motion must satisfy the constraints {what}, of {at.system.name}: at t = {at.t:g} it "
-                                    f"violates {names[int(np.abs(left).argmax())]!r} by {worst:.3g}")
+                                    f"violates {name!r} by {worst:.3g}")
     raise SingularSystem(NO_MASS)
 
 

@@ -138,8 +138,6 @@ def multipliers(at: State, right: np.ndarray, rows: np.ndarray | None = None) ->
     `rows` are those of C, and of whatever else acts; where M is singular, s is the length of the row in characteristic scales.
     """
     rows = at.C if rows is None else rows
-    if not len(rows):
-        return np.zeros((0, *right.shape[1:]))
     scale = scales(at.system, at.p).v
     size = _sizes_by_mass(at, rows, scale)
     return (np.linalg.lstsq((rows * scale / size[:, None]).T, (scale * right.T).T, rcond=DEPENDENT)[0].T / size).T
