@@ -84,6 +84,42 @@ typedef struct zd_needed_efforts {
  * weights; with fewer the residual is the least. Returns ZD_DONE, ZD_BAD_START if the motion violates constraints, ZD_NOT_DEFINITE if a
  * motion that they allow has no mass, ZD_NO_MEMORY or ZD_CALLBACK. */
 int zd_inverse_dynamics(const zd_system *system, const zd_given_motion *given, zd_needed_efforts *to);
+
+/* ---- motion by prescribed quantities, without forces and masses ---- */
+
+/* Quantities are components of measures of positions, or coordinates. */
+typedef struct zd_prescribed_motion {
+    const zd_system *system, *measured;     /* the latter provides the measures: the system, or one with the same equations */
+    int measures, components;   /* components of all measures */
+    const int *measure;         /* (measures,): indices */
+    int quantities;
+    const int *which;           /* (quantities,): component among those of all measures, one after another; -1 - i: coordinate i */
+    int64_t samples;
+    const double *value;        /* (samples, quantities + 1): values, then the time in s, which increases if there are rates */
+    const double *rate, *second;    /* (samples, quantities): derivatives of the values; NULL: positions alone */
+    const double *inverse_scale_p, *scale_v;    /* (nq,), (nv,): characteristic scales, of p in reciprocals */
+} zd_prescribed_motion;
+
+typedef struct zd_tracked {
+    double *p, *v, *vdot;       /* (samples, nq), (samples, nv), (samples, nv): not written beyond dead points */
+    int64_t dead;               /* first sample beyond a dead point; -1: none */
+    double *reached;            /* (quantities,): the last values before it */
+    int64_t contradicting;      /* first sample where quantities or their rates contradict each other or the constraints; -1: none */
+    double contradiction;       /* residual there, relative to the changes or rates */
+} zd_tracked;
+
+/* The motion from p (nq,) on, which satisfies the constraints at the first time. Where the quantities do not determine all positions there,
+ * moves have minimum norm in characteristic scales. */
+int zd_kinematics(const zd_prescribed_motion *motion, const double *p, zd_tracked *found);
+/* p (nq,) <- position with the first values, by Newton's method from this guess, with steps of minimum norm in characteristic scales.
+ * Returns ZD_NO_CONVERGENCE where there is none near it. *iteration: size of the last step. */
+int zd_find_position(const zd_prescribed_motion *motion, double *p, double *iteration);
+/* rate, second (samples, columns) <- derivatives at the inner samples t of the quintic splines through value, with the given ones at both
+ * ends. factors (samples, 4), of zeros, is overwritten. */
+void zd_quintic_spline(int64_t samples, int columns, const double *t, const double *value, double *factors, double *rate, double *second);
+
+/* ---- states on the constraints ---- */
+
 /* Projects p and v in place onto the constraints by the corrections of `settings`. Coordinates and velocities with nonzero hold_p, hold_v
  * are held fixed (either may be NULL); iterations may be NULL. */
 int zd_project(const zd_system *system, const zd_settings *settings, double t, double *p, double *v,

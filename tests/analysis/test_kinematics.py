@@ -170,3 +170,55 @@ def test_quantities_that_contradict_each_other_are_refused():
 def test_a_constant_rate_over_time_gives_no_warning(recwarn):
     zd.kinematics(zd.models.four_bar(), {"crank.angle": np.linspace(1.6, 2.0, 200)}, np.linspace(0, 1, 200))
     assert not recwarn.list
+
+
+def test_samples_within_reach_after_a_dead_point_are_found_again():
+    bar, limit = zd.models.four_bar(), -np.arccos((0.6**2 + 1 - 0.7**2) / (2 * 0.6))
+    there = np.linspace(-1.4, limit + 0.05, 40)
+    angles = np.concatenate([there, there[::-1]])
+    with pytest.warns(zd.LockedWarning, match="dead point"):
+        kin = zd.kinematics(bar, {"rocker.angle": angles}, 0.1 * np.arange(80))
+    assert (np.isfinite(kin["crank.angle"]) == (angles < limit)).all()
+    assert kin["crank.angle"][-1] == pytest.approx(kin["crank.angle"][0], abs=1e-12)
+
+
+def test_rates_that_contradict_each_other_are_refused():
+    m, t = robot(), np.linspace(0, 1, 11)
+    m.motor("knee drive", "knee", angle=lambda t: 0.4 * np.sin(2 * t))
+    with pytest.raises(zd.InconsistentStart, match=r"at t = .* rates differ by"):
+        zd.kinematics(m, {"upper.angle": lambda t: 0.2 + t, "knee.angle": 0.4 * np.sin(2 * t)}, t)
+
+
+def test_rates_are_derivatives_of_the_positions():
+    """Differences of eighth order over time, at samples that need an iteration more and at those that do not."""
+    h, weights = 1e-3, np.array([1 / 280, -4 / 105, 1 / 5, -4 / 5, 0, 4 / 5, -1 / 5, 4 / 105, -1 / 280])
+    t = h * np.arange(300)
+    kin = zd.kinematics(zd.models.four_bar(), {"crank.angle": lambda t: np.pi / 2 + 3 * t + 0.2 * np.sin(5 * t)}, t)
+    for rates, values in ((kin.v, kin.p), (kin.vdot, kin.v)):
+        found = np.array([np.convolve(column, weights[::-1], "valid") for column in values.T]).T / h
+        assert rates[4:-4] == pytest.approx(found, abs=1e-10 * max(1.0, np.abs(rates).max()))
+
+
+def test_functions_are_called_once_with_all_times_where_they_take_arrays():
+    t, calls = np.linspace(0.0, 1.0, 50), []
+
+    def smooth(t):
+        calls.append(t)
+        return [0.3 * np.sin(2 * t) + np.exp(-t), 0.5, t**2]
+
+    def in_parts(t):
+        return [0.3 * np.sin(2 * t) + np.exp(-t), 0.5, t**2 if t < 0.5 else t * t]
+
+    found, expected = (prescribed("path", function, t, None) for function in (smooth, in_parts))
+    assert len(calls) == 4
+    for name in ("value", "rate", "second"):
+        assert getattr(found, name) == pytest.approx(getattr(expected, name), abs=1e-15)
+
+
+def test_a_start_is_led_to_values_that_leave_freedoms():
+    m = robot()
+    kin = zd.kinematics(m, {"lower.end.position": circle}, np.linspace(0, 1, 5), near={"lower.end.position.x": 0.6})
+    expected = zd.kinematics(m, {"lower.end.position": circle}, np.linspace(0, 1, 5))
+    assert kin["knee.angle"] == pytest.approx(expected["knee.angle"])
+    with pytest.raises(zd.CorrectionFailed, match=r"can move to .*the way to lower\.end\.position ends at \[0\.9"):
+        zd.kinematics(m, {"lower.end.position": circle}, [0.0, 1.0], near={"lower.end.position": [1.5, 0.9]})

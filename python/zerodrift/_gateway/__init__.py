@@ -40,6 +40,7 @@ from .base import (
 )
 from .callbacks import CALLBACK_CODE, PythonCore, Watcher
 from .inputs import Following, Inputs
+from .kinematics import Prescribing, Tracked, quintic_spline
 from .known_events import KnownEvent
 from .measures import MAX_LEAST, Acting, Outputs
 from .operations import acceleration, accelerations, needed_efforts, project, states_between
@@ -62,7 +63,7 @@ from .runs import (
     takes_jacobian,
     takes_series,
 )
-from .systems import CoreSystem, Kind, follow, kinds
+from .systems import CoreSystem, Kind, kinds
 
 # Imported at first use: most people have no compiled systems of their own.
 _LATER = {

@@ -380,9 +380,3 @@ class CoreSystem(Measuring):
         if status:
             raise core.error or error_of(status, "the system's evaluation failed")
         return arrays
-
-
-def follow(core: CoreSystem, p: np.ndarray) -> None:
-    """Update the dependent angles of joints from the other coordinates, in place, preserving their whole turns."""
-    if core.c.followers:
-        core.c.follow(core.c.data, doubles(p, core.nq, writable=True))

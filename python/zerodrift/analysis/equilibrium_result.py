@@ -15,7 +15,7 @@ from .large import SparseBalance
 from .names import pivots
 from .quantities import components, rows_of
 from .rest import Balance, nearest
-from .retraction import consistent, onto
+from .retraction import onto
 from .spectrum import Spectrum, of_matrix
 from .state import scales
 
@@ -175,7 +175,7 @@ def _balances_along(balance: Balance, axis: np.ndarray) -> bool:
     p = at.p
     for _ in range(STEPS_ASIDE):
         try:
-            p = onto(at.system, at.t, consistent(at.system, p + at.A @ step), balance.names)
+            p = onto(at.system, at.t, p + at.A @ step, balance.names)
         except CorrectionFailed:
             return False
         there = Balance(at.system, at.t, p, balance.names, is_rough=True)

@@ -25,7 +25,7 @@ from .frames import STEADY, frame_of
 from .orbit import Orbit, changed
 from .read_forces import Held
 from .state import State, scales, state
-from .tangent import Tangent, row_lengths
+from .tangent import Tangent
 
 POSITION_ROUNDING = 1e-12    # of characteristic scales: displacements from a steady motion by rounding, times its stiffness
 
@@ -115,7 +115,8 @@ class Flow:
         for s in () if self.is_at_rest else orbit.times(STEADY * np.sqrt(self.size)):
             there, turned = Flow(orbit.state(s), efforts=self.efforts), orbit.turned(s)
             violations = [there.at.Phi, there.at.C @ there.at.v + there.at.Phi_t]
-            unit = row_lengths(there.at.C * there.tangent.scale)
+            unit = np.linalg.norm(there.at.C * there.tangent.scale, axis=1)
+            unit[unit == 0] = 1.0       # rows of zeros constrain nothing
             apart = max(float(np.abs(each / unit[:each.size]).max(initial=0.0)) for each in violations)
             if apart > STEADY * (1 + np.abs(self.w).max()) or not self._is_small(there.acc - turned @ acc):
                 return changed(self.instant, there.instant, rotation_of(turn(orbit.Omega * s)))

@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 
 from .. import _check
-from ..errors import AccuracyWarning, InconsistentStart, LockedWarning, WrongValue
+from .._gateway import Tracked
+from ..errors import AccuracyWarning, InconsistentStart, LockedWarning, SingularSystem, WrongValue
 from ..systems.base import BaseSystem, core_of, system_of
 from .kinematic_result import Kinematics
+from .names import dominant
 from .prescribed import Prescribed, prescribed
-from .quantities import find, rates_of, values_of
-from .retraction import near_to
-from .state import scales, state, states
-from .tangent import DEPENDENT, row_lengths
-from .tracker import DeadPoint, Target, Tracker
+from .quantities import find, rows_of, values_of
+from .retraction import near_to, prescribing
+from .state import State, scales, state
+from .tangent import null_space
 
-CONTRADICTION = 1e-9        # of the size of the rates: prescribed ones that contradict each other
 INACCURATE = 1e-4           # of the largest second rate: differences of an array over time that are worth a warning
 
 
@@ -82,12 +82,15 @@ def kinematics(system: Any, motion: Mapping[Any, Any], t: Any = None, *, speed: 
     wanted = {name: prescribed(f"motion[{name!r}]", value, times, speed) for name, value in given.items()}
     times = _times(wanted, times, speed)
     p = near_to(system, near, times[0])
-    _check_quantities(system, times[0], p, wanted)
-    tracker = Tracker(system, list(wanted))
-    positions = _tracked(tracker, p, times, wanted)
-    rates = _rates(system, times, positions, wanted, has_rates=t is not None or speed is not None)
+    at = state(system, times[0], p, np.zeros(system.nv))
+    _check_quantities(system, at, wanted)
+    _check_determined(system, at, wanted)
+    orders = ("value", "rate", "second") if t is not None or speed is not None else ("value",)
+    value, *rates = (np.hstack([getattr(each, order) for each in wanted.values()]) for order in orders)
+    tracked = prescribing(system, p, wanted).track(p, np.column_stack([value, times]), *rates)
+    _report(system, tracked, times, wanted)
     _warn_of_errors(wanted)
-    return Kinematics(system, times, positions, *rates, {name: each.error for name, each in wanted.items()}, tuple(wanted))
+    return Kinematics(system, times, *tracked[:3], {name: each.error for name, each in wanted.items()}, tuple(wanted))
 
 
 def _speed(speed: Any, given: Mapping[str, Any], times: Any) -> float:
@@ -118,8 +121,7 @@ def _times(wanted: Mapping[str, Prescribed], times: np.ndarray | None, speed: fl
     return times
 
 
-def _check_quantities(system: BaseSystem, t: float, p: np.ndarray, wanted: Mapping[str, Prescribed]) -> None:
-    at = state(system, t, p, np.zeros(system.nv))
+def _check_quantities(system: BaseSystem, at: State, wanted: Mapping[str, Prescribed]) -> None:
     for name, each in wanted.items():
         found = find(at, name, "motion")
         if found.is_velocity:
@@ -128,75 +130,43 @@ def _check_quantities(system: BaseSystem, t: float, p: np.ndarray, wanted: Mappi
             raise WrongValue(f"motion[{name!r}] must have {len(found.value)} components, not {each.value.shape[1]}", "shape")
 
 
-def _tracked(tracker: Tracker, p: np.ndarray, times: np.ndarray, wanted: Mapping[str, Prescribed]) -> np.ndarray:
-    """Positions (k, nq) at the samples, NaN beyond a dead point; from the last position before it to samples within reach."""
-    tracker.check_determined(times[0], p)
-    found, here = np.full((len(times), tracker.system.nq), np.nan), tracker.target(times[0], p)
-    first: DeadPoint | None = None
-    for i, t in enumerate(times):
-        there = Target(float(t), {name: each.value[i] for name, each in wanted.items()})
-        try:
-            p = tracker.follow(p, here, there)
-        except DeadPoint as dead:
-            if first is None:
-                _check_agreement(tracker, dead, there)
-                first = dead
-            continue
-        found[i], here = p, there
-    if first is not None:
-        limit = ", ".join(f"{name} = {np.array2string(value, precision=9)[1:-1]}" for name, value in first.reached.values.items())
-        warnings.warn(f"the motion of {tracker.system.name} comes to a dead point, {limit}: {np.isnan(found).any(axis=1).sum()} "
-                      "samples beyond it are NaN", LockedWarning, stacklevel=3)
-    return found
+def _check_determined(system: BaseSystem, at: State, names: Iterable[str]) -> None:
+    """Refuses quantities that do not determine the positions.
+
+    Raises
+    ------
+    SingularSystem
+        Naming the coordinate that stays free.
+    """
+    free = null_space(np.vstack([at.holonomic, rows_of(at, names)]), scales(system, at.p).v)
+    if free.shape[1]:
+        named = ", ".join(sorted({dominant(at, at.A @ column) for column in free.T}))
+        raise SingularSystem(f"the prescribed quantities must determine all positions of {system.name}, and leave "
+                             f"{free.shape[1]} free: {named}; prescribe more, or begin beside a singular position with near=")
 
 
-def _check_agreement(tracker: Tracker, dead: DeadPoint, there: Target) -> None:
-    """Refuses quantities that determine the positions more than once, and contradict each other.
+def _report(system: BaseSystem, tracked: Tracked, times: np.ndarray, wanted: Mapping[str, Prescribed]) -> None:
+    """Warns of samples beyond a dead point.
 
     Raises
     ------
     InconsistentStart
+        If quantities or their rates contradict each other or the constraints.
     """
-    if (off := tracker.contradiction(dead.p, dead.reached, there)) > 0:
-        raise InconsistentStart(f"the prescribed quantities must agree with each other and with the constraints of "
-                                f"{tracker.system.name}: at t = {there.t:g} {', '.join(tracker.names)} differ by {off:.3g} of "
-                                "their changes from what the others determine")
-
-
-def _rates(system: BaseSystem, times: np.ndarray, positions: np.ndarray, wanted: Mapping[str, Prescribed], *,
-           has_rates: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Velocities and accelerations (k, nv) each."""
-    v, vdot = (np.full((len(times), system.nv), np.nan) for _ in range(2))
-    known, names = np.flatnonzero(np.isfinite(positions).all(axis=1) & has_rates), tuple(wanted)
-    t, p = times[known], positions[known]
-    rate, second = (np.hstack([getattr(each, order)[known] for each in wanted.values()]) for order in ("rate", "second"))
-    v[known] = 0.0
-    found = rates_of(system, names, "motion", t, p)
-    for i, at, row, its_rate in zip(known, states(system, t, p, v[known]), found["row"], rate, strict=True):
-        v[i] = _solved(system, at.p, np.vstack([at.C, row]), np.concatenate([-at.Phi_t, its_rate]), at.t)
-    found = rates_of(system, names, "motion", t, p, v[known])
-    for i, at, row, its_second in zip(known, states(system, t, p, v[known]), found["row"], second - found["bias"], strict=True):
-        vdot[i] = _solved(system, at.p, np.vstack([at.C, row]), np.concatenate([at.xi, its_second]), at.t)
-    return v, vdot
-
-
-def _solved(system: BaseSystem, p: np.ndarray, rows: np.ndarray, right: np.ndarray, t: float) -> np.ndarray:
-    """The one x with rows x = right.
-
-    Raises
-    ------
-    InconsistentStart
-        If there is none.
-    """
-    scale = scales(system, p).v
-    length = row_lengths(rows * scale)
-    rows, right = rows * scale / length[:, None], right / length
-    x = np.linalg.lstsq(rows, right, rcond=DEPENDENT)[0]
-    off = float(np.abs(rows @ x - right).max(initial=0.0))
-    if off > CONTRADICTION * (float(np.abs(x).max(initial=0.0)) + float(np.abs(right).max(initial=0.0))) + 1e-12:
-        raise InconsistentStart(f"the prescribed motion must agree with the constraints of {system.name}: at t = {t:g} rates "
-                                f"differ by {off:.3g}")
-    return scale * x
+    beyond = np.isnan(tracked.p).any(axis=1)
+    if (i := tracked.contradicting) >= 0:
+        if beyond[i]:
+            raise InconsistentStart(f"the prescribed quantities must agree with each other and with the constraints of "
+                                    f"{system.name}: at t = {times[i]:g} {', '.join(wanted)} differ by "
+                                    f"{tracked.contradiction:.3g} of their changes from what the others determine")
+        raise InconsistentStart(f"the prescribed motion must agree with the constraints of {system.name}: at t = {times[i]:g} "
+                                f"rates differ by {tracked.contradiction:.3g} of their size")
+    if tracked.reached is not None:
+        ends = np.cumsum([each.value.shape[1] for each in wanted.values()])
+        limit = ", ".join(f"{name} = {np.array2string(value, precision=9)[1:-1]}"
+                          for name, value in zip(wanted, np.split(tracked.reached, ends[:-1]), strict=True))
+        warnings.warn(f"the motion of {system.name} comes to a dead point, {limit}: {beyond.sum()} samples beyond it are NaN",
+                      LockedWarning, stacklevel=3)
 
 
 def _warn_of_errors(wanted: Mapping[str, Prescribed]) -> None:

@@ -24,7 +24,6 @@ from ..errors import EquilibriumFailed, ZerodriftError
 from ..runs.arguments import methods, settings
 from ..runs.states.operations import project
 from ..systems.base import BaseSystem, core_of
-from .retraction import consistent
 from .state import scales
 
 MANY = 200              # velocities: with fewer, dense matrices are faster
@@ -95,7 +94,7 @@ class SparseBalance:
 
     def moved(self, z: np.ndarray) -> np.ndarray:
         """The position (nq,) on the constraints after a displacement (nv,) in quasi-coordinates."""
-        guess = consistent(self.system, self.p + self._along(z))
+        guess = self.p + self._along(z)
         tight = methods.Projection(tol=1e-13)
         return project(self.system, guess, self.rest, self.t, projection=tight, formulation="augmented")[0]
 

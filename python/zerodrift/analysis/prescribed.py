@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .. import _check
+from .. import _check, _gateway
 from ..errors import WrongType, WrongValue
 from ..systems import autodiff
 
@@ -58,25 +58,33 @@ def prescribed(name: str, given: Any, t: np.ndarray | None, speed: float | None)
 
 def _of_function(name: str, given: Any, t: np.ndarray) -> Prescribed:
     function = _of_expression(name, given) if hasattr(given, "free_symbols") else given
-    samples = [_jets(name, function, float(each)) for each in t]
-    value, rate, second = (np.array([autodiff.part(each, part, None) for each in samples], dtype=float) for part in PARTS)
-    if not (np.isfinite(value).all() and np.isfinite(rate).all() and np.isfinite(second).all()):
-        raise WrongValue(f"{name} must be finite with its derivatives at all samples", "not-finite")
-    return Prescribed(value, rate, second, 0.0)
-
-
-PARTS = ("value", "first", "second")
-
-
-def _jets(name: str, function: Callable[[Any], Any], t: float) -> np.ndarray:
-    """The values of a function (size,) with their derivatives with respect to time."""
+    some = [0, len(t) // 2, -1]
+    expected = np.dstack([_parts(name, function, each) for each in t[some].tolist()])
     try:
-        found = np.atleast_1d(np.asarray(function(autodiff.Jet(t, 0.0, 1.0, 0.0)), dtype=object))
+        with np.errstate(all="ignore"):
+            parts = _parts(name, function, t)
+        is_elementwise = np.isfinite(parts).all() and np.allclose(parts[..., some], expected, 1e-9, 1e-12)
+    except Exception:
+        is_elementwise = False      # it takes single times only
+    if not is_elementwise:
+        parts = np.dstack([_parts(name, function, each) for each in t.tolist()])
+    if not np.isfinite(parts).all():
+        raise WrongValue(f"{name} must be finite with its derivatives at all samples", "not-finite")
+    return Prescribed(*np.ascontiguousarray(parts.swapaxes(1, 2)), 0.0)
+
+
+def _parts(name: str, function: Callable[[Any], Any], t: Any) -> np.ndarray:
+    """Values with their first and second derivatives with respect to time, (3, size), or (3, size, k) at times (k,)."""
+    try:
+        found = np.ravel(np.asarray(function(autodiff.Jet(t, 0.0, 1.0, 0.0)), dtype=object))
     except Exception as error:
         _check.tell(error, f"in {name}, called at t = {t:g}: it must be written in NumPy's functions")
         raise
-    jets = [each if isinstance(each, autodiff.Jet) else autodiff.Jet(_check.number(name, each)) for each in found.ravel()]
-    return np.array(jets, dtype=object)
+    jets = [each if isinstance(each, autodiff.Jet) else autodiff.Jet(_check.number(name, each)) for each in found]
+    return np.array([[np.broadcast_to(getattr(each, part), np.shape(t)) for each in jets] for part in PARTS], dtype=float)
+
+
+PARTS = ("value", "first", "second")
 
 
 def _of_expression(name: str, given: Any) -> Callable[[Any], Any]:
@@ -90,7 +98,7 @@ def _of_expression(name: str, given: Any) -> Callable[[Any], Any]:
     parts = [sympy.lambdify(symbol, [each.diff(symbol, order) for each in entries], "numpy") for order in range(3)]
 
     def function(t: Any) -> np.ndarray:
-        return np.array([autodiff.Jet(float(value), 0.0, float(rate), float(second))
+        return np.array([autodiff.Jet(value, 0.0, rate, second)
                          for value, rate, second in zip(*(part(t.value) for part in parts), strict=True)], dtype=object)
 
     return function
@@ -104,51 +112,22 @@ def _of_array(values: np.ndarray, t: np.ndarray) -> Prescribed:
     if len(t) < NEAREST:        # a single polynomial
         error = float(np.abs(seconds - _of_polynomials(values, t, len(t) - 1)[1]).max())
         return Prescribed(values, rates, seconds, error, rounding)
-    rate, second = _spline(values, np.diff(t), rates[[0, -1]], seconds[[0, -1]])
+    rate, second = rates.copy(), seconds.copy()
+    _gateway.quintic_spline(t, values, rate, second)
     at_ends = float(np.abs(seconds - coarse)[[0, -1]].max())
     return Prescribed(values, rate, second, max(at_ends, float(np.abs(second - seconds).max())), rounding)
 
 
 def _of_polynomials(values: np.ndarray, t: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """First and second derivatives (k, size) of polynomials through so many nearest samples."""
-    local = [_weights(t, i, count) for i in range(len(t))]
-    rates, seconds = (np.array([weights[order] @ values[weights[0]] for weights in local]) for order in (1, 2))
-    return rates, seconds
-
-
-def _spline(values: np.ndarray, h: np.ndarray, rates: np.ndarray, seconds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """First and second derivatives (k, size) at the samples of the quintic spline with these derivatives at both ends, (2, size).
-
-    Between two samples the polynomial of degree five follows from values and both derivatives at its ends. Its third and fourth
-    derivatives are continuous at each inner sample: a block tridiagonal system for x = (rate, second), solved by elimination.
-    """
-    k, steps = len(values), np.diff(values, axis=0)
-    x = np.zeros((k, 2, values.shape[1]))
-    x[0], x[-1] = (np.stack([rates[i], seconds[i]]) for i in (0, 1))
-    factor, right = [np.zeros((2, 2))], [x[0]]
-    for i in range(1, k - 1):
-        before, after = h[i - 1], h[i]
-        lower = np.array([[-24 / before**2, -3 / before], [-168 / before**3, -24 / before**2]])
-        middle = np.array([[-36 / before**2 + 36 / after**2, 9 / before + 9 / after],
-                           [-192 / before**3 - 192 / after**3, 36 / before**2 - 36 / after**2]])
-        upper = np.array([[24 / after**2, -3 / after], [-168 / after**3, 24 / after**2]])
-        jump = np.stack([60 * (steps[i] / after**3 - steps[i - 1] / before**3),
-                         -360 * (steps[i] / after**4 + steps[i - 1] / before**4)])
-        pivot = np.linalg.inv(middle - lower @ factor[-1])
-        factor.append(pivot @ upper)
-        right.append(pivot @ (jump - lower @ right[-1]))
-    for i in range(k - 2, 0, -1):
-        x[i] = right[i] - factor[i] @ x[i + 1]
-    return x[:, 0], x[:, 1]
-
-
-def _weights(t: np.ndarray, i: int, count: int) -> tuple[slice, np.ndarray, np.ndarray]:
-    """So many samples next to one, and their weights in its first and second derivative."""
-    count = max(1, min(count, len(t)))
-    first = min(max(0, i - count // 2), len(t) - count)
-    near = slice(first, first + count)
-    offset = t[near] - t[i]
-    size = float(np.abs(offset).max()) or 1.0
-    inverse = np.linalg.inv(np.vander(offset / size, increasing=True))
-    none = np.zeros(count)
-    return near, inverse[1] / size if count > 1 else none, 2 * inverse[2] / size**2 if count > 2 else none
+    """First and second derivatives (k, size) of polynomials through so many nearest samples, in Newton's form."""
+    k, count = len(t), max(1, min(count, len(t)))
+    near = np.clip(np.arange(k) - count // 2, 0, k - count)[:, None] + np.arange(count)
+    x, c = (t[near] - t[:, None])[..., None], values[near]
+    for j in range(1, count):
+        c[:, j:] = (c[:, j:] - c[:, j - 1:-1]) / (x[:, j:] - x[:, :-j])
+    value, rate, second = np.zeros((3, *values.shape))
+    for j in reversed(range(count)):
+        second = 2 * rate - x[:, j] * second
+        rate = value - x[:, j] * rate
+        value = c[:, j] - x[:, j] * value
+    return rate, second

@@ -118,8 +118,6 @@ def rates_of(system: BaseSystem, names: tuple[str, ...], what: str, t: np.ndarra
         return {key: np.array([np.concatenate([getattr(one, key) for one in of_state]) for of_state in found]) for key in parts}
     core, numbers = watching.core, [place.number for place in places]
     rates = core.measure_rates(numbers, t, np.ascontiguousarray(p), np.ascontiguousarray(v), parts)
-    if all(place.component is None for place in places):
-        return rates
     ends = np.cumsum([core.measure_size(place.number) for place in places])
     columns = np.concatenate([np.arange(first, end) if place.component is None else [first + place.component]
                               for place, first, end in zip(places, [0, *ends[:-1]], ends, strict=True)])
@@ -129,7 +127,7 @@ def rates_of(system: BaseSystem, names: tuple[str, ...], what: str, t: np.ndarra
 def _coordinate(at: State, i: int) -> Found:
     row, pdot = at.A[[i]], at.A @ at.v
     bias = np.zeros(1)
-    if at.system.quaternions or at.system.nq != at.system.nv or not np.array_equal(at.A, np.eye(at.system.nv)):
+    if not np.array_equal(at.A, np.eye(*at.A.shape)):
         size = float(np.abs(pdot / scales(at.system, at.p).p).max(initial=0.0))
         bias = differences.along(lambda h: state(at.system, at.t, at.p + h * pdot, at.v).A[[i]] @ at.v, size)
     return Found(at.p[[i]], pdot[[i]], row, bias, False)

@@ -63,23 +63,13 @@ def small_core(system: BaseSystem) -> CoreSystem:
 
 def state(system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray) -> State:
     """Terms at (t, p, v)."""
-    return states(system, np.array([float(t)]), p[None], v[None])[0]
-
-
-def states(system: BaseSystem, times: np.ndarray, p: np.ndarray, v: np.ndarray) -> list[State]:
-    """Terms at many states: times (k,), p (k, nq), v (k, nv)."""
-    core = small_core(system)
+    core, t = small_core(system), float(t)
     p, v = np.ascontiguousarray(p, dtype=float), np.ascontiguousarray(v, dtype=float)
-    k, nv, m = len(times), core.nv, core.m
-    absent = {"A": (core.nq, nv), "f": (nv,), "d": (nv,), "Phi": (core.mh,), "C": (m, nv), "Phi_t": (m,), "xi": (m,)}
-    terms = {name: np.zeros((k, *shape)) for name, shape in absent.items()} | {"A": np.tile(np.eye(core.nq, nv), (k, 1, 1))}
-    terms |= core.evaluate_states(tuple(core.layout), times, p, v)
-    found = []
-    for i, t in enumerate(times.tolist()):
-        at = {name: values[i] for name, values in terms.items()}
-        C = core.rows_above_rounding(t, p[i], v[i], at["C"])
-        found.append(State(system, t, p[i], v[i], at["A"], at["M"], at["f"] - at["d"], at["Phi"], C, at["Phi_t"], at["xi"]))
-    return found
+    nv, m = core.nv, core.m
+    absent = {"f": nv, "d": nv, "Phi": core.mh, "C": (m, nv), "Phi_t": m, "xi": m}
+    at = {"A": np.eye(core.nq, nv)} | {name: np.zeros(shape) for name, shape in absent.items()} | core.evaluate(t, p, v)
+    C = core.rows_above_rounding(t, p, v, at["C"])
+    return State(system, t, p, v, at["A"], at["M"], at["f"] - at["d"], at["Phi"], C, at["Phi_t"], at["xi"])
 
 
 class Scales(NamedTuple):

@@ -21,29 +21,15 @@ from ..systems.base import core_of
 from .state import State, scales
 
 DEPENDENT = 1e-9        # of the largest singular value of scaled rows: what counts as dependent; rounding leaves 1e-13
-WELL_INDEPENDENT = 1e6  # largest entry of the inverse of the products of unit rows: errors are 1e-10 of a step
 MASSLESS = 1e-13        # of the largest: mass of a motion that counts as none
 
 NO_MASS = ("a motion that the constraints allow has no mass: give mass and inertia to the bodies that take part in it, or "
            "constrain them")
 
 
-def norms(rows: np.ndarray) -> np.ndarray:
-    """Euclidean norms (m,) of the rows of a matrix (m, n)."""
-    return np.sqrt(np.einsum("ij,ij->i", rows, rows))
-
-
-def scaled_rows(rows: np.ndarray, scale: np.ndarray) -> np.ndarray:
-    """Rows in scaled velocities, each divided by its length; rows that are rounding beside the others stay negligible."""
-    rows = rows * scale
-    length = norms(rows)[:, None]
-    return rows / np.maximum(length, max(DEPENDENT * length.max(initial=0.0), 1e-300))
-
-
-def row_lengths(rows: np.ndarray) -> np.ndarray:
-    """Norms (m,) of rows, one for rows of zeros, which constrain nothing."""
-    length = norms(rows)
-    return np.where(length > 0, length, 1.0)
+def not_negligible(sizes: np.ndarray) -> np.ndarray:
+    """Sizes (m,), at least a share of the largest: what is rounding beside the others stays negligible when divided by them."""
+    return np.maximum(sizes, DEPENDENT * (sizes.max(initial=0.0) or 1.0))
 
 
 def null_space(rows: np.ndarray, scale: np.ndarray) -> np.ndarray:
@@ -51,7 +37,8 @@ def null_space(rows: np.ndarray, scale: np.ndarray) -> np.ndarray:
     nv = rows.shape[1]
     if not len(rows):
         return np.diag(scale)
-    _, values, vectors = np.linalg.svd(scaled_rows(rows, scale))
+    rows = rows * scale
+    _, values, vectors = np.linalg.svd(rows / not_negligible(np.linalg.norm(rows, axis=1))[:, None])
     rank = int((values > DEPENDENT * max(values.max(initial=0.0), 1e-300)).sum())
     return scale[:, None] * vectors[rank:].T if rank < nv else np.zeros((nv, 0))
 
@@ -112,8 +99,7 @@ class Tangent:
     def solve_rows(self, right: np.ndarray) -> np.ndarray:
         """Minimum-norm x, in scaled velocities, with C x = right."""
         rows = self.at.C * self.scale
-        length = np.linalg.norm(rows, axis=1)
-        length = np.maximum(length, DEPENDENT * (length.max(initial=0.0) or 1.0))
+        length = not_negligible(np.linalg.norm(rows, axis=1))
         right = (right.T / length).T
         x = np.linalg.lstsq(rows / length[:, None], right, rcond=DEPENDENT)[0]
         return (x.T * self.scale).T
@@ -148,14 +134,5 @@ def _sizes_by_mass(at: State, rows: np.ndarray, scale: np.ndarray) -> np.ndarray
     try:
         size = np.sqrt(np.maximum((rows * np.linalg.solve(at.M, rows.T).T).sum(axis=1), 0.0))
     except np.linalg.LinAlgError:
-        size = norms(rows * scale)
-    return np.maximum(size, DEPENDENT * (size.max(initial=0.0) or 1.0))
-
-
-def inverse_of_products(rows: np.ndarray) -> np.ndarray | None:
-    """Inverse (m, m) of rows rows^T, of unit rows (m, n); None where they are not well independent."""
-    try:
-        inverse = np.linalg.inv(rows @ rows.T)
-    except np.linalg.LinAlgError:
-        return None
-    return inverse if np.abs(inverse).max(initial=0.0) < WELL_INDEPENDENT else None
+        size = np.linalg.norm(rows * scale, axis=1)
+    return not_negligible(size)

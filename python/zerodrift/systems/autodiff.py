@@ -17,7 +17,7 @@ from ..errors import WrongType
 
 
 class Jet:
-    """x with gradient dx/dy (k,), and x', x'' along a curve."""
+    """x with gradient dx/dy (k,), and x', x'' along a curve; without gradient x may be an array, of values at several times."""
 
     __slots__ = ("first", "gradient", "second", "value")
 
@@ -30,7 +30,7 @@ class Jet:
         Where phi'' is infinite and x' = 0, as of x**1.5 at the 0 of x = y**2, x is at an end of what phi takes, and phi'' does
         not enter: |y|**3 has a second derivative.
         """
-        bend = curvature * self.first**2 if self.first else 0.0
+        bend = curvature * self.first**2 if isinstance(self.first, np.ndarray) or self.first else 0.0
         return Jet(value, slope * self.gradient, slope * self.first, bend + slope * self.second)
 
     def __add__(self, other: Any) -> Jet:
@@ -141,13 +141,16 @@ class Jet:
 
 def _unary(name: str, phi: Callable[[float], tuple[float, float, float]]) -> Callable[[Jet], Jet]:
     """The method of a function. Where Python raises an error, the value is NumPy's, and there are no derivatives."""
-    def method(self: Jet) -> Jet:
+    def parts(x: float) -> tuple[float, float, float]:
         try:
-            parts = phi(self.value)
+            return phi(x)
         except (ValueError, ZeroDivisionError, OverflowError):
             with np.errstate(all="ignore"):
-                parts = float(getattr(np, name)(self.value)), math.nan, math.nan
-        return self._chain(*parts)
+                return float(getattr(np, name)(x)), math.nan, math.nan
+
+    def method(self: Jet) -> Jet:
+        x = self.value
+        return self._chain(*(np.transpose([parts(each) for each in x.tolist()]) if isinstance(x, np.ndarray) else parts(x)))
     return method
 
 

@@ -1,0 +1,140 @@
+#include "prescribed_rows.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "../linalg/small.h"
+
+static const double DEPENDENT = 1e-9;   /* remaining norm relative to the largest at which a row is redundant; rounding leaves 1e-13 */
+static const double SHORT_ROW = 1e-3;   /* norm of a row relative to the longest: smaller ones are divided by that */
+
+zd_prescribed_rows zd_prescribed_rows_create(zd_arena *arena, const zd_prescribed_motion *motion)
+{
+    const zd_system *system = motion->system;
+    const zd_measures *measures = motion->measured->measures;
+    const int rows = zd_constraints(system) + motion->quantities, positions = rows - system->mn;
+    const size_t all = (size_t)rows, nv = (size_t)system->nv, components = (size_t)motion->components;
+    zd_statistics *statistics = zd_arena_bytes(arena, sizeof *statistics);
+    return (zd_prescribed_rows){
+        .motion = motion, .point = zd_point_create(arena, system, statistics), .positions = positions, .rows = rows,
+        .unit = zd_arena_doubles(arena, all * nv), .length = zd_arena_doubles(arena, all), .value = zd_arena_doubles(arena, all),
+        .bias = zd_arena_doubles(arena, all), .space = zd_row_space_create(arena, positions, system->nv),
+        .right = zd_arena_doubles(arena, all), .y = zd_arena_doubles(arena, nv), .components = zd_arena_doubles(arena, components),
+        .jacobian = zd_arena_doubles(arena, components * nv),
+        .scratch = zd_arena_doubles(arena, measures ? (size_t)measures->scratch : 0),
+        .residuals = zd_residual_state_create(arena, system, statistics, ZD_ACCURATE),
+        .rates = zd_arena_doubles(arena, 2 * (size_t)system->nq)};
+}
+
+/* ---- prescribed quantities ---- */
+
+/* The derivative of row i of A along the motion, times v. */
+static int find_bias_of_coordinate(zd_prescribed_rows *self, int i, double *bias)
+{
+    zd_point *point = self->point;
+    double *pdot = self->rates, *change = pdot + point->system->nq;
+    zd_point_rate(point, point->v, pdot);
+    const double size = fmax(zd_max_scaled(point->system->nq, pdot, self->motion->inverse_scale_p), DBL_MIN);
+    zd_residual_state_begin(&self->residuals, ZD_RESIDUAL_PDOT, point, NULL, NULL);
+    const int status = zd_residual_derivatives(&self->residuals, &(zd_direction){.p = pdot}, 1 / size, ZD_ACCURATE, change);
+    *bias = change[i];
+    return status;
+}
+
+/* Values of all quantities with their derivatives, or their biases. */
+static int read_quantities(zd_prescribed_rows *self, int is_bias)
+{
+    const zd_prescribed_motion *motion = self->motion;
+    zd_point *at = self->point;
+    const zd_measured bias = {.bias = self->components}, value = {.value = self->components, .jacobian = self->jacobian};
+    const int nv = at->system->nv;
+    double *row = self->unit + at->system->mh * nv, *to = is_bias ? self->bias : self->value;
+    int status = zd_measure_states(motion->measured, at->inputs, motion->measures, motion->measure, 1, &at->t, at->p, at->v, NULL, NULL,
+                                   is_bias ? &bias : &value, self->scratch);
+    for (int i = 0; i < motion->quantities && !status; i++, row += nv) {
+        const int k = motion->which[i], coordinate = -1 - k;
+        if (k >= 0) to[i] = self->components[k];
+        else if (is_bias) status = find_bias_of_coordinate(self, coordinate, to + i);
+        else status = zd_point_need(at, ZD_A), to[i] = at->p[coordinate];
+        for (int j = 0; j < nv && !is_bias && !status; j++) row[j] = k < 0 ? zd_entry_of_A(at, coordinate, j) : self->jacobian[k * nv + j];
+    }
+    return status > 0 ? ZD_CALLBACK : status;
+}
+
+/* ---- rows ---- */
+
+/* Row of constraint k, zero where it is the rounding error of terms that cancel. */
+static void write_constraint(zd_prescribed_rows *self, int k)
+{
+    const zd_point *point = self->point;
+    const int nv = point->system->nv, mh = point->system->mh;
+    const zd_row_of_C row = zd_point_row(point, k);
+    double *to = self->unit + (k < mh ? k : k + self->motion->quantities) * nv;
+    zd_row_expand(&row, nv, to);
+    if (zd_largest(nv, to) <= point->rounding[k]) memset(to, 0, (size_t)nv * sizeof *to);
+}
+
+/* Scales the rows and divides them by their lengths. */
+static void normalize(zd_prescribed_rows *self)
+{
+    const int nv = self->point->system->nv;
+    double *row = self->unit, longest = DBL_MIN;
+    for (int k = 0; k < self->rows; k++, row += nv) {
+        for (int i = 0; i < nv; i++) row[i] *= self->motion->scale_v[i];
+        self->length[k] = sqrt(zd_dot(nv, row, row));
+        longest = fmax(longest, self->length[k]);
+    }
+    row = self->unit;
+    for (int k = 0; k < self->rows; k++, row += nv) {
+        self->length[k] = fmax(self->length[k], SHORT_ROW * longest);
+        for (int i = 0; i < nv; i++) row[i] /= self->length[k];
+    }
+}
+
+int zd_prescribed_rows_factor(zd_prescribed_rows *self, double t, const double *p)
+{
+    zd_point *point = self->point;
+    zd_point_move(point, t, p, point->v);
+    int status = zd_point_measure(point);
+    if (!status) status = zd_point_need_times_A(point, ZD_PHI | ZD_C | ZD_PHI_T);
+    if (!status) status = read_quantities(self, 0);
+    if (status) return status;
+    for (int k = 0; k < zd_constraints(point->system); k++) write_constraint(self, k);
+    normalize(self);
+    memcpy(self->space.A, self->unit, (size_t)(self->positions * point->system->nv) * sizeof *self->unit);
+    zd_row_space_factor(&self->space, self->positions, DEPENDENT, 0);
+    self->space.rows = self->space.rank;        /* the redundant ones are not solved */
+    return ZD_DONE;
+}
+
+double zd_prescribed_rows_pivot(const zd_prescribed_rows *self)
+{
+    const zd_row_space *space = &self->space;
+    return space->rank < space->n ? 0 : fabs(space->diagonal[space->n - 1] / space->diagonal[0]);
+}
+
+int zd_prescribed_rows_move(zd_prescribed_rows *self, const double *v)
+{
+    zd_point_move_velocity(self->point, v);
+    const int status = zd_point_need(self->point, ZD_XI);
+    return status ? status : read_quantities(self, 1);
+}
+
+void zd_prescribed_rows_solve(zd_prescribed_rows *self, double *x)
+{
+    for (int k = 0; k < self->rows; k++) self->right[k] /= self->length[k];
+    zd_row_space_solve(&self->space, self->right, self->y);
+    for (int i = 0; i < self->space.n; i++) x[i] = self->motion->scale_v[i] * self->y[i];
+}
+
+double zd_prescribed_rows_residual(const zd_prescribed_rows *self, int rows)
+{
+    const int nv = self->space.n;
+    double largest = 0;
+    for (int i = self->space.rank; i < rows; i++) {
+        const int k = i < self->positions ? self->space.order[i] : i;
+        largest = fmax(largest, fabs(zd_dot(nv, self->unit + k * nv, self->y) - self->right[k]));
+    }
+    return largest;
+}
