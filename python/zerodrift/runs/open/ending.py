@@ -69,8 +69,13 @@ def _arrays_and_stats(record: _gateway.Record, results: _gateway.Results, second
         "kinetic_energy": arrays["kinetic"], "potential_energy": arrays.get("potential"), "energy_input": arrays.get("input"),
         "energy_violation": arrays.get("energy_violation"), "iterations": arrays["iterations"],
         "energy_skipped": arrays["energy_skipped"], "position_size": results.sizes,
-        "stats": stats | {"matrix_path_reason": _matrix_path_reason(system, chosen, stats)},
+        "stats": with_reason(stats, system, chosen),
         "outputs": outputs}
+
+
+def with_reason(stats: dict[str, Any], system: BaseSystem, chosen: dict[str, Any]) -> dict[str, Any]:
+    """Statistics of a run with the reason why no step used the closed form."""
+    return stats | {"matrix_path_reason": _matrix_path_reason(system, chosen, stats)}
 
 
 def _matrix_path_reason(system: BaseSystem, settings: dict[str, Any], stats: dict[str, Any]) -> str | None:

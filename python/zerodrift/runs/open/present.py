@@ -10,6 +10,7 @@ from ... import _check
 from ...errors import WrongValue
 from ..arguments.inputs import refuse_unknown
 from ..samples.summary import run_summary
+from .ending import with_reason
 
 
 class Present:
@@ -100,4 +101,4 @@ class Present:
         return [*self._places, *self._ready.of._names_of_quantities()]
 
     def __repr__(self) -> str:
-        return run_summary(self)
+        return run_summary(self, with_reason(self._core.results().as_stats(), self._ready.system, self.settings))

@@ -29,11 +29,7 @@ def summary(solution: Any) -> str:
         lines.append(
             f"  cost        {_duration(stats['seconds'])}, {steps} steps of {_duration(stats['seconds'] / steps)}, "
             f"{stats['evaluations'] / steps:.3g} evaluations and {stats['factorizations'] / steps:.3g} factorizations each")
-    if stats.get("closed_form_steps"):
-        left = stats["steps"] - stats["closed_form_steps"]
-        lines.append("  evaluation  closed form" + (f" ({left} of {stats['steps']} steps by matrices)" if left else ""))
-    elif stats.get("matrix_path_reason"):
-        lines.append(f"  evaluation  matrices, no closed form: {stats['matrix_path_reason']}")
+    lines += _evaluation(stats)
     if solution.system.m:
         lines.append(f"  violation   max |Phi| = {_largest(solution.position_violation)}, "
                      f"max |Psi| = {_largest(solution.velocity_violation)}")
@@ -50,6 +46,14 @@ def summary(solution: Any) -> str:
     if solution.energy_violation is not None:
         lines.append(f"  energy      max |Psi_E| = {_largest(solution.energy_violation)} J")
     return "\n".join(lines)
+
+
+def _evaluation(stats: dict[str, Any]) -> list[str]:
+    if stats.get("closed_form_steps"):
+        left = stats["steps"] - stats["closed_form_steps"]
+        return ["  evaluation  closed form" + (f" ({left} of {stats['steps']} steps by matrices)" if left else "")]
+    reason = stats.get("matrix_path_reason")
+    return [f"  evaluation  matrices, no closed form: {reason}"] if reason else []
 
 
 def _duration(seconds: float) -> str:
@@ -72,13 +76,14 @@ def _largest(violation: np.ndarray) -> str:
     return f"{max((np.abs(part).max(initial=0.0) for part in parts), default=0.0):.2g}"
 
 
-def run_summary(run: Any) -> str:
-    """Lines on the present time, the methods, the inputs and the state of a run."""
+def run_summary(run: Any, stats: dict[str, Any]) -> str:
+    """Lines on the present time, the methods, the evaluation of steps, the inputs and the state of a run."""
     s, system = run.settings, run.system
     corrections = corrections_of(s) if s["stabilization"] else ["no stabilization", *corrections_of(s)]
     lines = [
         f"Run of {system.name}: t = {run.t:.9g} s after {run.steps} steps",
         f"  how         {s['formulation']}, {s['integrator']}, {step_sizes(s)}, {', '.join(map(str, corrections))}",
+        *_evaluation(stats),
         f"  positions   {_values(system.coordinates, run.p)}",
         f"  velocities  {_values(system.velocities, run.v)}",
     ]
