@@ -118,6 +118,8 @@ def rates_of(system: BaseSystem, names: tuple[str, ...], what: str, t: np.ndarra
         return {key: np.array([np.concatenate([getattr(one, key) for one in of_state]) for of_state in found]) for key in parts}
     core, numbers = watching.core, [place.number for place in places]
     rates = core.measure_rates(numbers, t, np.ascontiguousarray(p), np.ascontiguousarray(v), parts)
+    if all(place.component is None for place in places):
+        return rates
     ends = np.cumsum([core.measure_size(place.number) for place in places])
     columns = np.concatenate([np.arange(first, end) if place.component is None else [first + place.component]
                               for place, first, end in zip(places, [0, *ends[:-1]], ends, strict=True)])
