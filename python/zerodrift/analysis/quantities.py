@@ -11,7 +11,7 @@ from .. import _check
 from ..errors import WrongType, WrongValue
 from ..systems.base import BaseSystem
 from . import differences
-from .state import State, scales, state
+from .state import State, scales, small_core, state
 
 AXES = "xyz"
 # Coordinates or speeds of a joint or motor that its efforts act along, and their units
@@ -84,19 +84,12 @@ def find(at: State, name: str, what: str) -> Found:
     ValueError
         If nothing has that name, or it depends on accelerations or reactions.
     """
-    system, watching = at.system, at.system._watching
+    system = at.system
     place = _place(system, name, what)
-    if place is not None:
-        found = rates_of(system, (name,), what, np.array([float(at.t)]), at.p[None], at.v[None])
-        return Found(*(each[0] for each in found.values()), watching.core.measure_depends(place.number) == "velocities")
-    coordinates, velocities = ([each.name for each in group] for group in (system.coordinates, system.velocities))
-    if name in coordinates:
-        return _coordinate(at, coordinates.index(name))
-    if name in velocities:
-        row = np.eye(system.nv)[[velocities.index(name)]]
-        return Found(row @ at.v, np.zeros(1), row, np.zeros(1), True)
-    raise WrongValue(f"{what} names {name!r}, and nothing in {system.name} is called that; "
-                     f"{_check.closest(name, system._names_of_quantities())}", "wrong-name")
+    found = rates_of(system, (name,), what, np.array([float(at.t)]), at.p[None], at.v[None])
+    is_velocity = name in _names(system.velocities) if place is None else (
+        system._watching.core.measure_depends(place.number) == "velocities")
+    return Found(*(each[0] for each in found.values()), is_velocity)
 
 
 def rows_of(at: State, names: Iterable[str]) -> np.ndarray:
@@ -112,10 +105,10 @@ def rates_of(system: BaseSystem, names: tuple[str, ...], what: str, t: np.ndarra
     """
     watching, v = system._watching, np.zeros((len(t), system.nv)) if v is None else v
     places = [_place(system, name, what) for name in names]
-    if any(place is None for place in places):      # coordinates and velocities
-        found = [[find(state(system, float(at_t), at_p, at_v), name, what) for name in names]
-                 for at_t, at_p, at_v in zip(t, p, v, strict=True)]
-        return {key: np.array([np.concatenate([getattr(one, key) for one in of_state]) for of_state in found]) for key in parts}
+    if any(place is None for place in places):
+        each = [_of_variable(system, name, what, t, p, v, parts) if place is None else
+                rates_of(system, (name,), what, t, p, v, parts) for name, place in zip(names, places, strict=True)]
+        return {part: np.concatenate([one[part] for one in each], axis=1) for part in parts}
     core, numbers = watching.core, [place.number for place in places]
     rates = core.measure_rates(numbers, t, np.ascontiguousarray(p), np.ascontiguousarray(v), parts)
     if all(place.component is None for place in places):
@@ -126,13 +119,28 @@ def rates_of(system: BaseSystem, names: tuple[str, ...], what: str, t: np.ndarra
     return {part: each[:, columns] for part, each in rates.items()}
 
 
-def _coordinate(at: State, i: int) -> Found:
-    row, pdot = at.A[[i]], at.A @ at.v
-    bias = np.zeros(1)
-    if not np.array_equal(at.A, np.eye(*at.A.shape)):
-        size = float(np.abs(pdot / scales(at.system, at.p).p).max(initial=0.0))
-        bias = differences.along(lambda h: state(at.system, at.t, at.p + h * pdot, at.v).A[[i]] @ at.v, size)
-    return Found(at.p[[i]], pdot[[i]], row, bias, False)
+def _names(variables: Iterable[Any]) -> list[str]:
+    return [each.name for each in variables]
+
+
+def _of_variable(system: BaseSystem, name: str, what: str, t: np.ndarray, p: np.ndarray, v: np.ndarray,
+                 parts: Iterable[str]) -> dict[str, np.ndarray]:
+    """The same of a coordinate or a velocity."""
+    coordinates, velocities, core = _names(system.coordinates), _names(system.velocities), small_core(system)
+    if name not in coordinates and name not in velocities:
+        raise WrongValue(f"{what} names {name!r}, and nothing in {system.name} is called that; "
+                         f"{_check.closest(name, system._names_of_quantities())}", "wrong-name")
+    k, bias, identity = len(t), np.zeros((len(t), 1)), np.eye(core.nq, core.nv)
+    if name not in coordinates:
+        j = velocities.index(name)
+        return {"value": v[:, [j]], "rate": bias, "bias": bias, "row": np.broadcast_to(np.eye(core.nv)[[j]], (k, 1, core.nv))}
+    A = core.evaluate_states(("A",), t, p, v).get("A", np.broadcast_to(identity, (k, *identity.shape)))
+    i, pdot = coordinates.index(name), np.einsum("kij,kj->ki", A, v)
+    for n in range(k if "bias" in parts else 0):
+        if not np.array_equal(A[n], identity):
+            size = float(np.abs(pdot[n] / scales(system, p[n]).p).max(initial=0.0))
+            bias[n] = differences.along(lambda h, n=n: state(system, t[n], p[n] + h * pdot[n], v[n]).A[[i]] @ v[n], size)
+    return {"value": p[:, [i]], "rate": pdot[:, [i]], "bias": bias, "row": A[:, [i]]}
 
 
 def conjugate(system: BaseSystem, name: str) -> str:
