@@ -76,7 +76,7 @@ typedef struct zd_needed_efforts {
     double *residual;       /* (states,) N/sqrt(kg): norm in the mass metric of the force that the efforts do not give */
     double *wanted;         /* (states,) N/sqrt(kg): norm in the mass metric of the force that they should give */
     double *power;          /* (states,) W: of all efforts */
-    int *rank;              /* (states,): number of independent efforts */
+    double *rank;           /* (states,): number of independent efforts */
     int64_t sample;         /* the last one that was examined */
 } zd_needed_efforts;
 

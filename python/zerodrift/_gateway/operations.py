@@ -76,10 +76,8 @@ def needed_efforts(core: CoreSystem, states: Sequence[np.ndarray], rows: np.ndar
     allowed motion has no mass.
     """
     core, (k, j, _) = core.for_run(), rows.shape
-    found = [np.empty(shape) for shape in ((k, j), (k, core.m), k, k, k)]
+    found = [np.empty(shape) for shape in ((k, j), (k, core.m), k, k, k, k)]
     to = ffi.new("zd_needed_efforts *", [doubles(each, each.size, writable=True) for each in found])
-    found.append(rank := np.empty(k, dtype=np.intc))
-    to.rank = ffi.from_buffer("int[]", rank, require_writable=True)
     *moving, forces, along, weights, scales, inverse = (doubles(each, each.size) for each in map(
         np.ascontiguousarray, (*states, rows if force is None else force, rows, weight, scale, 1 / scale)))
     motion = ffi.new("zd_given_motion *",

@@ -172,12 +172,13 @@ def _solved(system: BaseSystem, samples: tuple[np.ndarray, ...], names: list[str
                       f"{max(undriven.values()):.3g} N/sqrt(kg) in the mass metric is missing at {', '.join(undriven)}",
                       AccuracyWarning, stacklevel=3)
     if not are_known:
-        known_alone, found = found, [np.full((k, *each.shape[1:]), np.nan) for each in found[:-1]] + [np.zeros(k, dtype=np.intc)]
+        known_alone, found = found, [np.full((k, *each.shape[1:]), np.nan) for each in found]
         for each, values in zip(found, known_alone, strict=True):
             each[known] = values
     u, lam, residual, _, power, rank = found
     efforts = _by_name(names, [u[:, end - size:end] for size, end in zip(sizes, np.cumsum(sizes), strict=True)])
-    return Efforts(system, samples, lam, efforts, (along, u), residual=residual, power=power, rank=rank)
+    return Efforts(system, samples, lam, efforts, (along, u), residual=residual, power=power,
+                   rank=np.nan_to_num(rank).astype(int))
 
 
 def _refuse(at: State, vdot: np.ndarray) -> NoReturn:
