@@ -184,10 +184,11 @@ static int follow(tracker *self, int64_t i)
     return ZD_DONE;
 }
 
-/* Notes the first sample at which rows that are not solved contradict the others by more than a share of the right-hand side. */
-static void note_contradiction(const zd_prescribed_rows *rows, int count, double share, int64_t i, zd_tracked *found)
+/* Notes the first sample at which rows that are not solved contradict the others by more than a share of the right-hand side, whose size
+ * is at least `least`. */
+static void note_contradiction(const zd_prescribed_rows *rows, int count, double share, double least, int64_t i, zd_tracked *found)
 {
-    const double size = zd_largest(count, rows->right), residual = zd_prescribed_rows_residual(rows, count);
+    const double size = fmax(zd_largest(count, rows->right), least), residual = zd_prescribed_rows_residual(rows, count);
     if (found->contradicting >= 0 || !(residual > share * size + CONTRADICTION)) return;
     found->contradicting = i;
     found->contradiction = residual / size;
@@ -204,7 +205,7 @@ static int note_dead_point(tracker *self, int64_t i, zd_tracked *found)
         status = set_changes(self);
         find_change(self);
         if (zd_prescribed_rows_pivot(&self->rows) > NEAR_SINGULAR)
-            note_contradiction(&self->rows, self->rows.positions, OF_CHANGES, i, found);
+            note_contradiction(&self->rows, self->rows.positions, OF_CHANGES, 0, i, found);
     }
     copy(self, self->sample, self->reached);
     self->is_factored = 0;
@@ -220,11 +221,12 @@ static int find_rates(tracker *self, int64_t i, zd_tracked *found)
     const int nv = motion->system->nv, m = zd_constraints(motion->system);
     set_right(self, -1, terms->Phi_t, m, motion->rate + i * self->quantities, NULL);
     zd_prescribed_rows_solve(rows, found->v + i * nv);
-    note_contradiction(rows, rows->rows, OF_RATES, i, found);
+    note_contradiction(rows, rows->rows, OF_RATES, 0, i, found);
+    const double speed = zd_largest(nv, rows->y);
     const int status = zd_prescribed_rows_move(rows, found->v + i * nv);
     set_right(self, 1, terms->xi, m, motion->second + i * self->quantities, rows->bias);
     zd_prescribed_rows_solve(rows, found->vdot + i * nv);
-    note_contradiction(rows, rows->rows, OF_RATES, i, found);
+    note_contradiction(rows, rows->rows, OF_RATES, speed * speed, i, found);      /* accelerations of a steady turn are differences */
     return status;
 }
 

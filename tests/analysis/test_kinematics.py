@@ -189,6 +189,21 @@ def test_rates_that_contradict_each_other_are_refused():
         zd.kinematics(m, {"upper.angle": lambda t: 0.2 + t, "knee.angle": 0.4 * np.sin(2 * t)}, t)
 
 
+@pytest.mark.parametrize("speed", [1.0, 100.0, 1e4])
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_a_steady_turn_with_redundant_constraints_is_consistent(layout, speed):
+    """Accelerations of the angles of coupled cranks are zero: differences of terms of the size of the squared speed."""
+    m = zd.Mechanism("coupled cranks")
+    cranks = [m.link(f"crank {x}", (x, 0), (x, 1), mass=1.0) for x in range(3)]
+    rod = m.link("rod", (0, 1), (2, 1), mass=1.0)
+    for x, crank in enumerate(cranks):
+        m.revolute(f"axle {x}", m.ground, crank.start)
+        m.revolute(f"pin {x}", crank, rod, at=(x, 1))
+    kin = zd.kinematics(m.system(layout), {"crank 0.angle": np.linspace(np.pi / 2, 3.0, 30)}, speed=speed)
+    assert kin["crank 2.angular_velocity"] == pytest.approx(speed, rel=1e-12)
+    assert np.abs(kin["crank 2.angular_acceleration"]).max() < 1e-9 * speed**2
+
+
 def test_rates_are_derivatives_of_the_positions():
     """Differences of eighth order over time, at samples that need an iteration more and at those that do not."""
     h, weights = 1e-3, np.array([1 / 280, -4 / 105, 1 / 5, -4 / 5, 0, 4 / 5, -1 / 5, 4 / 105, -1 / 280])
