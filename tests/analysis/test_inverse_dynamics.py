@@ -338,3 +338,12 @@ def test_a_later_sample_that_violates_a_constraint_is_named():
     vdot[3, 2] += 1.0
     with pytest.raises(zd.InconsistentStart, match=r"\(6\), accelerations, of four_bar: at t = 0.75 it violates 'C\.[xy]' by"):
         zd.inverse_dynamics(bar, kin.t, kin.p, kin.v, vdot, efforts=["crank.angle"])
+
+
+@pytest.mark.parametrize("name", ["four_bar", "heavy_top"])
+def test_no_samples_need_no_efforts(name):
+    system = getattr(zd.models, name)().system()
+    none = [np.zeros((0, size)) for size in (system.nq, system.nv, system.nv)]
+    inv = zd.inverse_dynamics(system, [], *none, efforts=[system.velocities[0].name])
+    assert inv[system.velocities[0].name].shape == inv.residual.shape == (0,)
+    assert inv.multipliers.shape == (0, system.m)

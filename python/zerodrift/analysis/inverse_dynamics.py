@@ -142,7 +142,7 @@ def _solved(system: BaseSystem, samples: tuple[np.ndarray, ...], names: list[str
     weight = np.repeat([weights.get(name, 1.0) for name in names], np.array(sizes, dtype=int))
     G = rates_of(system, along, "efforts", t, p, v, ["row"])["row"] if names else np.empty(0)
     G = G.reshape(len(t), len(weight), system.nv)
-    scale = scales(system, (p if len(p) else samples[1])[0])
+    scale = scales(system, p[0] if len(p) else np.zeros(system.nq))
 
     def needed(which: slice, force: np.ndarray | None) -> list[np.ndarray]:
         found = needed_efforts(core, [each[which] for each in at], G[which], weight, scale.length, scale.v, force)
