@@ -1,5 +1,7 @@
 """Mechanisms whose long runs of fixed steps are compiled before their first step."""
 
+import os
+
 import pytest
 
 import zerodrift as zd
@@ -69,6 +71,17 @@ def test_the_environment_refuses(monkeypatch, name, value, reason):
     sol = zd.simulate(four_bar(), **RUN)
     assert not sol.system.compiled
     assert reason in evaluation(sol)
+
+
+@needs_compiler
+@pytest.mark.skipif(os.name == "nt", reason="what stands for a compiler is a program of POSIX")
+def test_a_compiler_that_fails_leaves_the_tables(monkeypatch, cache_folder):  # noqa: F811  (the fixture)
+    monkeypatch.setenv("CC", "false")
+    sol = zd.simulate(four_bar(), **RUN)
+    assert not sol.system.compiled
+    assert "saves about" in evaluation(sol)
+    with pytest.raises(zd.CompilationFailed):
+        zd.simulate(four_bar().system(compiled=True), **RUN)
 
 
 def test_compiled_must_be_a_flag():

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ... import _check, _gateway
-from ...errors import CostWarning, DrawingWarning, SingularSystem, WrongType, advised
+from ...errors import CompilationFailed, CostWarning, DrawingWarning, SingularSystem, WrongType, advised
 from ...systems.base import BaseSystem, closed_form_core_of, core_of
 from ..arguments import events as _events
 from ..arguments import outputs as _outputs
@@ -101,9 +102,10 @@ def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: A
     plan = settings.plan(of, span, arguments)
     plan.core_settings.is_open = is_open
     takes = plan.steps and not is_open and _gateway.takes_closed_form(core_of(of), plan.core_settings)
-    if takes and (compiled := system._compiled_for(plan.steps)) is not None:
-        return prepared(compiled, span, p0, v0, events, outputs, save_to, arguments, inputs=inputs, speeds=speeds,
-                        stacklevel=stacklevel + 1)
+    with contextlib.suppress(CompilationFailed):    # tables serve, as code was not asked for
+        if takes and (compiled := system._compiled_for(plan.steps)) is not None:
+            return prepared(compiled, span, p0, v0, events, outputs, save_to, arguments, inputs=inputs, speeds=speeds,
+                            stacklevel=stacklevel + 1)
     core = closed_form_core_of(of, plan.settings["vector"], plan.core_settings)
     unit = _gateway.closed_form_unit(core, plan.core_settings)
     plan.settings["vector"] = None if unit is None else settings.VECTOR_UNITS[unit]
