@@ -89,7 +89,7 @@ def _shown(solution: Solution) -> str:
     return importlib.import_module(".player.view", __name__).of_solution(solution, repr(solution))
 
 
-Solution._repr_html_ = _shown       # here, as runs know nothing of films
+Solution._repr_html_ = _shown
 
 
 def __getattr__(name: str) -> Any:

@@ -6,6 +6,7 @@ import contextlib
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from numbers import Integral, Real
+from types import UnionType
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,7 @@ def shown(value: Any) -> str:
     return text if len(text) <= 80 else f"{text[:60]} ... ({type(value).__name__})"
 
 
-def instance(name: str, value: Any, kinds: type | tuple[type, ...], allowed: str) -> Any:
+def instance(name: str, value: Any, kinds: type | UnionType | tuple[type, ...], allowed: str) -> Any:
     """An object of one of these kinds."""
     if not isinstance(value, kinds):
         raise WrongType(f"{name} must be {allowed}, not {shown(value)}")
@@ -54,9 +55,10 @@ def count(name: str, value: Any, *, least: int = 1) -> int:
     """A whole number, at least `least`."""
     if type(value) is not int and (isinstance(value, bool | np.bool_) or not isinstance(value, Integral)):
         raise WrongType(f"{name} must be a whole number, not {value!r}")
-    if not least <= value < 2**31:
-        raise WrongValue(f"{name} must be between {least} and {2**31 - 1}, not {value}", "out-of-range")
-    return int(value)
+    whole = int(value)
+    if not least <= whole < 2**31:
+        raise WrongValue(f"{name} must be between {least} and {2**31 - 1}, not {whole}", "out-of-range")
+    return whole
 
 
 def choice(name: str, value: Any, allowed: Iterable[str]) -> str:

@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 import errno
+import importlib
 import os
 import platform
 import threading
 import warnings
 import weakref
 from pathlib import Path
+from typing import Any
 
 from .errors import InUse, NoLocksWarning
 
-try:
-    import fcntl
-except ImportError:         # on Windows
-    fcntl = None
-try:
-    import msvcrt
-except ImportError:
-    msvcrt = None
+
+def _module(name: str) -> Any:
+    """A module of the standard library; None where the system is another one."""
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        return None
+
+
+fcntl, msvcrt = map(_module, ("fcntl", "msvcrt"))       # of POSIX, and of Windows
 
 BUSY = (errno.EWOULDBLOCK, errno.EAGAIN, errno.EACCES, errno.EDEADLK)
 BEHIND = 2**40              # the byte that is locked on Windows, where locked bytes are not readable
@@ -39,7 +43,8 @@ class Lock:
     """
 
     def __init__(self, path: Path, refusal: str) -> None:
-        self._path, self._refusal, self._descriptor = path, refusal, None
+        self._path, self._refusal = path, refusal
+        self._descriptor: int | None = None
 
     def __enter__(self) -> Lock:
         """Acquire the lock.
@@ -95,7 +100,8 @@ class Lock:
 
     def forget(self) -> None:
         """Close the file in a process that was forked: the lock stays with its parent, and ends with it."""
-        os.close(self._descriptor)
+        if self._descriptor is not None:
+            os.close(self._descriptor)
         self._descriptor = None
 
 

@@ -8,11 +8,14 @@ import os
 import re
 import stat
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _check
+
+if TYPE_CHECKING:
+    import numpy as np
 
 AS_WINDOWS = os.name == "nt"        # a file that another process has open is not replaced there
 PAUSES = 0.01, 0.1, 1.0             # s, before it is tried again
@@ -23,6 +26,11 @@ def with_suffix(path: str | Path, suffix: str) -> Path:
     """The path, with the suffix added where it is missing."""
     path = Path(path)
     return path if path.suffix == suffix else path.with_name(path.name + suffix)
+
+
+def write_arrays(path: str | Path, arrays: Mapping[str, np.ndarray], save: Callable[..., None]) -> None:
+    """Write arrays by name to an NPZ file as `write_atomically` does; `save` is `numpy.savez` or `numpy.savez_compressed`."""
+    write_atomically(path, lambda file: save(file, **arrays))
 
 
 def write_atomically(path: str | Path, write: Callable[[Any], Any]) -> None:

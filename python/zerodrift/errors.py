@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any
 
 
-class _Coded:
+class _Coded(BaseException):
     """Base of errors and warnings whose message ends with their code, beside a class of Python."""
 
     code: str

@@ -8,7 +8,7 @@ import pytest
 import tolerances as tol
 import zerodrift as zd
 from large_mechanisms import four_bars, star
-from support import FORMULATIONS, INTEGRATORS, assert_same_bits, motion
+from support import FORMULATIONS, INTEGRATORS, assert_same_bits, motion, refused
 from zerodrift.runs import simulate as simulation
 
 # ---- repeatability ----
@@ -153,3 +153,8 @@ def test_cost_of_a_closed_form_step(bar):
 def test_implicit_iterations_are_counted(bar):
     assert motion(bar, 1.0, 100).stats["implicit_iterations"] == 0
     assert 100 <= motion(bar, 1.0, 100, integrator="trapezoidal").stats["implicit_iterations"] <= 500
+
+
+def test_an_instant_of_a_system_without_layout_is_refused_for_a_mechanism():
+    with refused("wrong-element", "pendulum"):
+        zd.simulate(zd.models.four_bar(), 0.1, zd.Instant(zd.systems.pendulum()), step=0.01)

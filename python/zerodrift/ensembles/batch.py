@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check, _gateway
+from ..mechanisms.system import MechanismSystem
 from ..runs.arguments import events as events_of
 from ..runs.arguments import settings
 from ..runs.open import diagnosis
@@ -76,13 +77,13 @@ def _batch(plan: Plan) -> Batch | None:
     closed_form = (found.settings["vector"], _gateway.takes_embeddings(found.core_settings)) if takes_closed_form else None
     tables = runs.tables(system, 0, 1, closed_form)      # closed-form functions are compiled here, once
     found_columns = _columns(system, plan.names, system._watching.core if tables is None else tables.core)
-    is_family = tables is not None and tables.family is not None
-    if found_columns is None or (is_family and (watched is not None or (tables.family.drives and span[0] != 0))):
+    family = None if tables is None else tables.family
+    if found_columns is None or (family is not None and (watched is not None or (family.drives and span[0] != 0))):
         return None
     batch = Batch(system, found.core_settings, found.rows, *found_columns, closed_form,
                   assembly(system, runs.hold) if runs.assembles(system) else None, found.settings,
                   None if watched is None else _gateway.Watcher(core_of(system), watched, core_of(system)),
-                  tables.family.numbers if is_family else 0)
+                  0 if family is None else family.numbers)
     if tables is not None:
         batch.core_of(tables)       # raises an error for a system without Taylor coefficients before the runs start
     return batch
@@ -110,10 +111,11 @@ def _columns(system: BaseSystem, names: tuple[str, ...],
         return None
     numbers = list(dict.fromkeys(place.number for place in measured.values()))
     outputs = _gateway.Outputs(numbers, system._watching.core, core) if numbers else None
-    ends = np.cumsum([0, *(outputs.sizes if outputs else ())]).tolist()
+    sizes = outputs.sizes if outputs else ()
+    ends = np.cumsum([0, *sizes]).tolist()
     columns: dict[str, tuple[str, Any]] = {name: known[name][0] for name in names if name not in measured}
     for name, place in measured.items():
-        begin, size = (ends[numbers.index(place.number)], outputs.sizes[numbers.index(place.number)])
+        begin, size = ends[numbers.index(place.number)], sizes[numbers.index(place.number)]
         is_one = size == 1 or place.component is not None
         columns[name] = "outputs", begin + (place.component or 0) if is_one else slice(begin, begin + size)
     return {name: columns[name] for name in names}, outputs
@@ -172,7 +174,8 @@ def _solution_of_family(plan: Plan, batch: Batch, tables: NumberTables, run: int
     p0, v0, places = start
     recorded = [name for name, (group, _) in batch.columns.items() if group == "outputs"]
     system = plan.runs.system(run)
-    system = system._driven_from(places) if places else system
+    if places and isinstance(system, MechanismSystem):
+        system = system._driven_from(places)
     return simulate(system, plan.t_span, p0, v0, **plan.options, outputs=recorded or None)
 
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from .. import _check, _gateway, _webassembly
 from ..errors import DrawingWarning, Interrupted, NoMemory, WorkerLost, WrongValue
+from ..runs.open.ending import with_solution
 from ..runs.open.keyboard import progress_of
 from ..runs.open.threads import Threads, processors
 from ..runs.samples.solution import Solution
@@ -176,12 +177,9 @@ class _Work:
         except KeyboardInterrupt:
             done = self._ensemble()
             raise Interrupted(f"the ensemble was interrupted: {self._count()} of {len(done)} runs are done", done) from None
-        except MemoryError as error:
-            error.solution = self._ensemble()
-            raise
-        except WorkerLost as error:
-            error.solution = self._ensemble()
-            if self._store:
+        except (MemoryError, WorkerLost) as error:
+            with_solution(error, self._ensemble())
+            if self._store and isinstance(error, WorkerLost):
                 _check.tell(error, f"what was done is in {self._store.folder}, and the same call goes on with it")
             raise
         finally:

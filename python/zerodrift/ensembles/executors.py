@@ -60,7 +60,7 @@ class Elsewhere:
         self._head = packed((stamp, packed(without_table, "the ensemble", shares_main=shares_main)))
         self._done: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self._pending: dict[Any, tuple[int, int]] = {}
-        self._lost: dict[tuple[int, int], Exception] = {}       # errors of the ranges that were not returned
+        self._lost: dict[tuple[int, int], BaseException] = {}       # errors of the ranges that were not returned
         self._has_received = False
 
     def run(self, count: int, look: Callable[[], None]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -81,7 +82,7 @@ def to_pandas(ens: Any, part: Part) -> Any:
     return pandas.DataFrame({**{name: each[run] for name, each in parameters.items()}, **outputs}, index=index)
 
 
-def _columns(arrays: dict[str, np.ndarray], *, has_axes: bool = False) -> dict[str, np.ndarray]:
+def _columns(arrays: Mapping[str, np.ndarray], *, has_axes: bool = False) -> dict[str, np.ndarray]:
     """Columns of an array: one, or one for each component."""
     return {each: column for name, array in arrays.items()
             for each, column in zip(component_names(name, array.shape[1:], has_axes=has_axes),

@@ -28,8 +28,8 @@ def check(sizes: Sequence[int] | None, runs: int, store: Path | None, stacklevel
         return
     takes = f"the outputs of {runs} runs take {free_space.in_words(size)}"
     if store is not None:
-        if size > (free := free_space.free_disk(store)):
-            raise NoSpace(f"{takes}, and {free_space.in_words(free)} are free in {store}: {LESS}")
+        if size > (on_disk := free_space.free_disk(store)):
+            raise NoSpace(f"{takes}, and {free_space.in_words(on_disk)} are free in {store}: {LESS}")
         return
     if (free := free_space.free_memory()) is None:
         return
@@ -106,13 +106,15 @@ class Joined(Mapping):
     def __getitem__(self, name: str) -> np.ndarray:
         if name not in self._names:
             raise WrongName(f"no output is called {name!r}; there are {', '.join(self._names)}", "wrong-name")
-        found, begin = None, 0
+        found: np.ndarray | None = None
+        begin = 0
         for part in self._parts:
             array = part[name]
             if found is None:
                 found = self._empty(name, array)
             found[begin:begin + len(array)] = array
             begin += len(array)
+        assert found is not None        # as there are parts
         return found
 
     def _empty(self, name: str, like: np.ndarray) -> np.ndarray:

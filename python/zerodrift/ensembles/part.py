@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -38,7 +38,7 @@ class Part(NamedTuple):
 
     rows: np.ndarray
     t: np.ndarray
-    arrays: dict[str, np.ndarray]
+    arrays: Mapping[str, np.ndarray]
     failed: np.ndarray
     messages: list[str]
     paths: np.ndarray

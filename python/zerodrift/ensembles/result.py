@@ -45,7 +45,7 @@ class Ensemble:
         Duration of all runs together.
     """
 
-    def __init__(self, plan: Plan, part: Part, seconds: float, where: str) -> None:
+    def __init__(self, plan: Plan | saving.Kept, part: Part, seconds: float, where: str) -> None:
         self.parameters, self.shape, self.seconds, self._where = plan.runs.parameters, plan.runs.shape, seconds, where
         self.units = plan.units
         self._plan, self._names, self._part = plan, plan.names, part

@@ -108,9 +108,9 @@ class Runs:
     """
 
     def __init__(self, made: Any, parameters: Any, p0: Any, v0: Any, start: Any, hold: Any, *, assembles: bool) -> None:
-        self.hold, self.may_assemble, self.shape = hold, assembles, getattr(parameters, "shape", None)
+        self.hold, self.may_assemble = hold, assembles
         self.made = made if callable(made) and not isinstance(made, BaseSystem) else system_of(made)
-        self.parameters, counts = _columns("parameters", parameters)
+        columns, counts = _columns("parameters", parameters)
         start, more = _columns("start", None if start is None else {name_of(each, "a key of start"): value
                                                                     for each, value in _dict("start", start).items()})
         states = {name: array for name, given in (("p0", p0), ("v0", v0))
@@ -118,8 +118,8 @@ class Runs:
         counts |= more | {name: len(array) for name, array in states.items() if array.ndim == 2}
         self.count = _common(counts)
         self.start_values, self.states = start, states
-        self.parameters = {name: self._all(each) for name, each in self.parameters.items()}
-        self.shape = self.shape or (self.count,)
+        self.parameters = {name: self._all(each) for name, each in columns.items()}
+        self.shape = getattr(parameters, "shape", None) or (self.count,)
         if isinstance(self.made, BaseSystem):
             core_of(self.made)
             for name in self.parameters:

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check
-from .._writing import write_atomically
+from .._writing import write_arrays
 from ..errors import WrongType, ZerodriftError
 from ..runs.samples import saving
 from ..systems.base import BaseSystem
@@ -168,7 +168,7 @@ class Kept(NamedTuple):
         return Plan(self.runs, self.t_span, self.options, self.names, is_tabular=self.is_tabular)
 
 
-def unpacked_plan(arrays: dict[str, np.ndarray], rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> Kept:
+def unpacked_plan(arrays: dict[str, np.ndarray], rebuilt: Callable[[dict[str, Any]], Any]) -> Kept:
     """Plan from the arrays of a file; `rebuilt` makes the system of a mechanism from JSON."""
     described = json.loads(str(arrays[KEY]))
     names = {kind: described[kind] for kind in ("parameters", "start", "states")}
@@ -195,7 +195,7 @@ def write(path: Path, plan: Plan | Kept, part: Part) -> None:
     """Write an ensemble to an NPZ file."""
     arrays = {f"runs.{name}": array for name, array in packed_part(part).items()}
     arrays |= packed_plan(plan)
-    write_atomically(path, lambda file: np.savez_compressed(file, **arrays))
+    write_arrays(path, arrays, np.savez_compressed)
 
 
 def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> tuple[Kept, Part] | None:

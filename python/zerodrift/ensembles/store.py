@@ -13,7 +13,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from .._locking import Lock
-from .._writing import is_temporary, sweep, write_atomically
+from .._writing import is_temporary, sweep, write_arrays, write_atomically
 from ..errors import WrongValue
 from ..runs.arguments.settings import VECTOR_UNITS
 from ..runs.open.identity import Identity, differences, version
@@ -89,7 +89,7 @@ class Store:
             self._held = stack.pop_all()
         return self
 
-    def __exit__(self, *error: object) -> None:
+    def __exit__(self, *error: Any) -> None:
         self._held.__exit__(*error)
 
     def _is_begun(self) -> bool:
@@ -105,7 +105,7 @@ class Store:
 
     def _begin(self) -> None:
         """Write the files of a new study, the manifest last: without one, a folder counts as not begun."""
-        write_atomically(self.folder / STUDY, lambda file: np.savez_compressed(file, **saving.packed_plan(self._plan)))
+        write_arrays(self.folder / STUDY, saving.packed_plan(self._plan), np.savez_compressed)
         write_atomically(self.folder / MANIFEST, lambda file: file.write(json.dumps(self._manifest, indent=1).encode()))
 
     def parts(self) -> dict[int, Part]:
@@ -128,7 +128,7 @@ class Store:
         count = len(part.rows)
         path = self.folder / f"runs_{first:09}_{first + count:09}.npz"
         if count:
-            write_atomically(path, lambda file: np.savez(file, **saving.packed_part(part)))
+            write_arrays(path, saving.packed_part(part), np.savez)
         return path
 
 

@@ -94,7 +94,7 @@ class Outcome(NamedTuple):
     steps: int
     evaluations: int
     p: np.ndarray | None                        # (k, nq): coordinates at the output times
-    violations: tuple[float, float, float]      # maxima of position, velocity and energy violation; NaN if undefined
+    violations: tuple[float, ...]               # maxima of position, velocity and energy violation; NaN if undefined
 
 
 class Bench:
@@ -104,7 +104,8 @@ class Bench:
                  closed_form: bool | None = False) -> None:
         self.system, self.span, self.start, self.closed_form = system, span, (p0, v0), closed_form
         is_certified = isinstance(reference, certified.Reference)
-        self.reference_error, self.caveats = (reference.error_in_double, reference.caveats) if is_certified else (np.nan, ())
+        self.reference_error: float = reference.error_in_double if is_certified else np.nan
+        self.caveats: tuple[str, ...] = reference.caveats if is_certified else ()
         self._reference = reference
         self._times = _times(reference, span)
         self._exact = states_of(reference, self._times, system.nq)[:, :system.nq]
@@ -175,7 +176,7 @@ class Bench:
             return self._run(setting, **saved)
 
     def _run(self, setting: Setting, **saved: Any) -> Outcome:
-        solution = simulate(self.system, self.span, *self.start, **setting.settings, **saved, closed_form=self.closed_form,
+        solution = simulate(self.system, self.span, *self.start, **(setting.settings | saved), closed_form=self.closed_form,
                             on_failure="return")
         if solution.status == _gateway.INTERRUPTED:
             raise KeyboardInterrupt
@@ -211,7 +212,7 @@ class Bench:
 
     def _made(self, core: _gateway.CoreSystem, plans: Sequence[settings.CheckedSettings],
               stop: _gateway.Stop | None) -> _gateway.BatchResults:
-        each, rows = [plan.core_settings for plan in plans], max(plan.rows for plan in plans)
+        each, rows = [plan.core_settings for plan in plans], max(plan.rows or 0 for plan in plans)
         p0, v0 = (np.tile(x, (len(plans), 1)) for x in self.system._state_or_start(*self.start, t=self.span[0]))
         wanted = ("p",) if "t_eval" in plans[0].settings else ()
         return _gateway.run_batch(NumberTables(core, None, 0, p0, v0, {}), each, len(plans), rows, wanted, stop=stop)

@@ -81,7 +81,9 @@ def check(system: BaseSystem, p: Any = None, v: Any = None, t: float = 0.0, *, s
     """
     system = system_of(system, p, v)
     p, v = system._state_or_start(p, v, "p", "v", t)
-    t, problems, names, states = _check.number("t", t), {}, {}, 0
+    t, states = _check.number("t", t), 0
+    problems: dict[str, str] = {}
+    names: dict[str, bool] = {}
     samples = _check.count("samples", samples, least=0)
     for p_now, v_now in [(p, v), *_samples(system, p, v, t, samples, seed)]:
         states += 1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import decimal
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from decimal import Decimal
 from typing import Any, NamedTuple
 
@@ -82,7 +82,7 @@ def _angle(y: Decimal, x: Decimal) -> Decimal:
     return nearly + missing - missing**3 / 3
 
 
-FUNCTIONS = {"+": Decimal.__add__, "-": Decimal.__sub__, "*": Decimal.__mul__, "/": Decimal.__truediv__,
-             "negative": Decimal.__neg__, "root": Decimal.sqrt, "power": Decimal.__pow__, "atan2": _angle,
-             "sin": lambda x: turned(x)[0], "cos": lambda x: turned(x)[1],
-             "floor": lambda x: x.to_integral_value(decimal.ROUND_FLOOR)}
+FUNCTIONS: dict[str, Callable[..., Decimal]] = {
+    "+": Decimal.__add__, "-": Decimal.__sub__, "*": Decimal.__mul__, "/": Decimal.__truediv__, "negative": Decimal.__neg__,
+    "root": Decimal.sqrt, "power": Decimal.__pow__, "atan2": _angle, "sin": lambda x: turned(x)[0], "cos": lambda x: turned(x)[1],
+    "floor": lambda x: x.to_integral_value(decimal.ROUND_FLOOR)}

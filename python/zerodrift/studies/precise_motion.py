@@ -22,6 +22,7 @@ CORRECTIONS = 4         # of the start, each of which gains the digits of a doub
 RESIDUAL = 10           # bound of h times the difference of rates, in units of the order times the tolerance
 SHORTER = 0.5           # factor of a step that is made again
 MAX_STEPS = 10_000     # attempts, each of which takes about a millisecond
+Series = tuple[np.ndarray, np.ndarray]      # coefficients of p and v
 
 
 class Settings(NamedTuple):
@@ -36,7 +37,7 @@ class Piece(NamedTuple):
     """Polynomial of a step: its beginning, and the coefficients of p and v."""
 
     t: float
-    series: tuple[np.ndarray, np.ndarray]
+    series: Series
 
 
 class PreciseRun(NamedTuple):
@@ -110,7 +111,8 @@ class PreciseMotion:
             return p, self._on_velocities(functions, t, p, v, ())
         return p, dd.minus(v, dd.of(correction.of(functions.residuals(t, p, v)["Psi"][:, 0])))
 
-    def _on_positions(self, functions: Precise, t, p, v, held: Sequence[int]) -> np.ndarray:
+    def _on_positions(self, functions: Precise, t: np.ndarray, p: np.ndarray, v: np.ndarray,
+                      held: Sequence[int]) -> np.ndarray:
         mh = functions.mh
         if mh:
             found = functions.residuals(t, p, v)
@@ -123,7 +125,8 @@ class PreciseMotion:
             p[first : first + 4] = _normalized(p[first : first + 4])
         return p
 
-    def _on_velocities(self, functions: Precise, t, p, v, held: Sequence[int]) -> np.ndarray:
+    def _on_velocities(self, functions: Precise, t: np.ndarray, p: np.ndarray, v: np.ndarray,
+                       held: Sequence[int]) -> np.ndarray:
         if not functions.m:
             return v
         found = functions.residuals(t, p, v)
@@ -161,10 +164,10 @@ class _Run:
             t, series, h = t1, following, self._step(following)
         return PreciseRun(self.p, self.v, steps, tuple(self.pieces))
 
-    def _series(self, t: float, p, v) -> tuple[np.ndarray, np.ndarray]:
+    def _series(self, t: float, p: np.ndarray, v: np.ndarray) -> Series:
         return self.functions.series(self.settings.order, dd.of(t), p, v)
 
-    def _step(self, series: tuple[np.ndarray, np.ndarray]) -> float:
+    def _step(self, series: Series) -> float:
         """Longest step for which the last two terms are as small as the tolerance."""
         order, tolerance, share = self.settings
         h = math.inf
@@ -175,7 +178,7 @@ class _Run:
             h = min(h, (tolerance / size) ** (1 / k) if size else math.inf)
         return min(share * h, self.motion.longest)
 
-    def _residual(self, series, following, h: np.ndarray) -> float:
+    def _residual(self, series: Series, following: Series, h: np.ndarray) -> float:
         """Residual of the equations of motion at h, times h, relative to the tolerance."""
         order, tolerance, _ = self.settings
         k = np.arange(1, order + 1)[:, None]
@@ -186,7 +189,7 @@ class _Run:
             worst = max(worst, float(np.abs(h[0] * apart[:, 0] / scale).max()))
         return worst / (RESIDUAL * order * tolerance)
 
-    def _sample(self, t: float, t1: float, series) -> None:
+    def _sample(self, t: float, t1: float, series: Series) -> None:
         """Store the samples from t to t1, from the polynomial of the step."""
         stop = int(np.searchsorted(self.times, t1, side="right"))
         for i in range(self.done, stop):

@@ -125,7 +125,8 @@ class Polynomials:
         """Coordinates and velocities (n, 2) at a time."""
         piece = self._pieces[max(bisect.bisect(self._begins, float(t)) - 1, 0)]
         h = np.array(pair(t - Decimal(piece.t)))
-        return tuple(self._functions.value(x, h) for x in piece.series)
+        p, v = (self._functions.value(x, h) for x in piece.series)
+        return p, v
 
     def root(self, of: Value, t: Decimal) -> Decimal:
         """Time near t at which a quantity is zero, by Newton's method."""
@@ -210,8 +211,8 @@ def located(runs: Runs, solution: Solution, given: Any) -> EventTimes:
     value = value_of("events", event.what, solution.system, event.of or {})
     settings = {name: value for name, value in solution.settings.items() if name != "t_eval"}
     run = simulate(solution.system, solution.t_span, **settings, events=event)
-    if not len(run.t_events[0]):
-        p, v = run.p_events[0], run.v_events[0]
-        return EventTimes(run.t_events[0], run.t_events[0], 0.0, p, p, v, v)
+    times, p, v = (each[0] for each in (run.t_events, run.p_events, run.v_events) if each)
+    if not len(times):
+        return EventTimes(times, times, 0.0, p, p, v, v)
     level = Decimal(_check.number("value of events", event.value))
-    return runs.events(lambda t, p, v: value(t, p, v) - level, run.t_events[0])
+    return runs.events(lambda t, p, v: value(t, p, v) - level, times)

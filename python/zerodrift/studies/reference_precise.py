@@ -49,8 +49,8 @@ class PreciseSearch:
 
     def __init__(self, motion: Motion, functions: Precise, found: Reference, wanted: float | None) -> None:
         held = motion.system._held_at_start if motion.is_own_start else ([], [])
-        start = (motion.system._exact_start() if motion.is_own_start else None) or tuple(map(dd.of, motion.start))
-        self.motion = PreciseMotion(functions, *start, motion.system.quaternions, held, motion.size,
+        p0, v0 = (motion.system._exact_start() if motion.is_own_start else None) or map(dd.of, motion.start)
+        self.motion = PreciseMotion(functions, p0, v0, motion.system.quaternions, held, motion.size,
                                     motion.span[0], (motion.span[1] - motion.span[0]) / motion.most)
         self.found, self.wanted = found, wanted
         self.reason = "its certified error is not smaller"      # for which there is no better reference in this arithmetic
@@ -98,11 +98,11 @@ class PreciseSearch:
         high, low = ([_frozen(x[..., part]) for x in (own.p, own.v)] for part in (0, 1))
         solution = dataclasses.replace(self.found.solution, p=high[0], v=high[1])
         return dataclasses.replace(self.found, solution=solution, error=errors[0], velocity_error=errors[1],
-                                   differences=differences + self.found.differences, low=tuple(low), _runs=runs)
+                                   differences=differences + self.found.differences, low=(low[0], low[1]), _runs=runs)
 
     def _difference(self, own: PreciseRun, run: PreciseRun, order: int, is_rounded: bool) -> Difference:
-        apart = [float(np.abs(dd.minus(getattr(own, name), getattr(run, name))[..., 0]).max()) for name in "pv"]
-        return Difference(run.steps, "double-double", *apart, METHOD.format(order), is_rounded)
+        p, v = (float(np.abs(dd.minus(getattr(own, name), getattr(run, name))[..., 0]).max()) for name in "pv")
+        return Difference(run.steps, "double-double", p, v, METHOD.format(order), is_rounded)
 
 
 def _frozen(x: np.ndarray) -> np.ndarray:

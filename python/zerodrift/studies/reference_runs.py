@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -20,9 +20,8 @@ from ..runs.simulate import simulate
 from ..systems.base import BaseSystem, core_of
 
 SERIES = "taylor"   # integrator of arbitrary order
-EPS = np.finfo(float).eps
+EPS = float(np.finfo(float).eps)
 PROBE = 1e-5        # tolerance of the adaptive run that determines the number of steps
-_NOT_MADE = object()
 UNIT = 3            # numbers of steps are multiples of this, as other runs have two and five thirds of them
 
 
@@ -45,20 +44,12 @@ class Perturbed(BaseSystem):
         self.coordinates, self.velocities, self.constraints = system.coordinates, system.velocities, system.constraints
         self._core, self._system = _gateway.perturbed(core_of(system), size, seed), system
 
-    def _with_series(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
+    def _with_series(self, core: Any, vector: str = "baseline") -> _gateway.CoreSystem:
         return self._system._with_series_of_perturbed(core, vector)
 
     def shifted(self, x: np.ndarray, seed: int) -> np.ndarray:
         """A state with each entry perturbed by one or two units of rounding."""
         return x * (1.0 + EPS * np.random.default_rng(seed).choice([-2.0, -1.0, 1.0, 2.0], x.shape))
-
-
-class Rows(NamedTuple):
-    """Times, coordinates and velocities of a run that was made in other coordinates."""
-
-    t: np.ndarray
-    p: np.ndarray
-    v: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -75,14 +66,15 @@ class Way:
 class Motion:
     """The motion of a reference: its runs, its size and its speed."""
 
-    def __init__(self, system, span, p0, v0, t_eval, stabilization, formulation, bounds) -> None:
+    def __init__(self, system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any, t_eval: Any, stabilization: Any,
+                 formulation: str | None, bounds: dict[str, Any]) -> None:
         self.system, self.span, self.t_eval, self.stabilization = system, span, t_eval, stabilization
         self.start = system._state_or_start(p0, v0, t=span[0])
         self.is_own_start = p0 is None and v0 is None
-        self._made_before: dict[tuple[Way, int], Solution | Exception | None] = {}
+        self._made_before: dict[tuple[Way, int | None], Solution | Exception | None] = {}
         self.bounded = bounds["max_step"] is not None
         self.is_plain = system._has_plain_laws
-        self.elsewhere = system._in_other_coordinates() if p0 is None and v0 is None else None
+        self.elsewhere: Any = system._in_other_coordinates() if p0 is None and v0 is None else None
         self.elsewhere_failed = False
         taken = methods.evaluating_integrators(system)
         cards = sorted(taken.values(), key=lambda card: -card.order)    # stable: table order for equal orders
@@ -119,10 +111,10 @@ class Motion:
 
     def run(self, way: Way, rows: int | None = None) -> Solution | None:
         """Solution of a run with `rows` samples after the first; None if it failed, as its steps were too long."""
-        made = self._made_before.pop((way, rows), _NOT_MADE)
-        if isinstance(made, Exception):
-            raise made
-        if made is not _NOT_MADE:
+        if (way, rows) in self._made_before:
+            made = self._made_before.pop((way, rows))
+            if isinstance(made, Exception):
+                raise made
             return made
         with unwarned():
             return self._run(way, rows)
@@ -142,41 +134,44 @@ class Motion:
 
     def _run(self, way: Way, rows: int | None, stop: _gateway.Stop | None = None) -> Solution | None:
         def look(part: float) -> None:
-            if stop():
+            if stop and stop():
                 raise KeyboardInterrupt
 
-        system, (p0, v0) = self.system, self.start
+        system, start = self.system, list[Any](self.start)
         if way.is_elsewhere:
-            system, p0, v0 = self.elsewhere, None, None
+            system, start = self.elsewhere, [None, None]
         if way.rounding:
             system = Perturbed(system, way.rounding)
-            p0, v0 = (system.shifted(x, way.rounding + i) for i, x in enumerate((p0, v0)))
+            start = [system.shifted(x, way.rounding + i) for i, x in enumerate(start)]
         saved = {"save_every": way.steps // (rows or way.steps)} if self.t_eval is None else {"t_eval": self.t_eval}
         try:
-            run = simulate(system, self.span, p0, v0, step=(self.span[1] - self.span[0]) / way.steps,
-                           formulation=way.formulation, integrator=way.integrator, stabilization=self.stabilization,
-                           closed_form=False, progress=look if stop else False, **saved)
-            return self._in_own_coordinates(run) if way.is_elsewhere else run
+            return simulate(system, self.span, start[0], start[1], step=(self.span[1] - self.span[0]) / way.steps,
+                            formulation=way.formulation, integrator=way.integrator, stabilization=self.stabilization,
+                            closed_form=False, progress=look if stop else False, **saved)
         except ZerodriftError as error:
             if error.solution is None:      # the run could not start
                 raise
             return None
 
-    def _in_own_coordinates(self, run: Solution) -> Rows:
-        """A run in other coordinates, converted to those of the motion, which are measures of it."""
-        own = ([run[variable.name] for variable in group] for group in (self.system.coordinates, self.system.velocities))
-        return Rows(run.t, *(np.column_stack(columns) for columns in own))
+    def _in_own_coordinates(self, run: Solution, way: Way) -> Iterable[np.ndarray]:
+        """Coordinates and velocities of the motion in a run, of which they are measures if it has others."""
+        if not way.is_elsewhere:
+            return run.p, run.v
+        with unwarned():
+            return [np.column_stack([run[variable.name] for variable in group])
+                    for group in (self.system.coordinates, self.system.velocities)]
 
     def difference(self, way: Way, motion: Solution, steps: int, run: Solution | None = None) -> Difference:
         """Difference of a run from the motion with `steps` steps, at common samples."""
         rows = math.gcd(steps, way.steps)
         run = run or self.run(way, rows)
-        apart = [math.inf, math.inf]
+        p, v = math.inf, math.inf
         if run is not None:
             every, its = (1, 1) if self.t_eval is not None else (steps // rows, (len(run.t) - 1) // rows)
-            apart = [float(np.abs(getattr(motion, name)[::every] - getattr(run, name)[::its]).max()) for name in "pv"]
+            p, v = (float(np.abs(own[::every] - others[::its]).max()) for own, others in zip(
+                (motion.p, motion.v), self._in_own_coordinates(run, way), strict=True))
         equations = f"{way.formulation}, {self.elsewhere.layout}" if way.is_elsewhere else way.formulation
-        return Difference(way.steps, equations, *apart, way.integrator, way.rounding > 0)
+        return Difference(way.steps, equations, p, v, way.integrator, way.rounding > 0)
 
 
 def _shift(t: np.ndarray, x: np.ndarray, samples: np.ndarray | None = None) -> float:

@@ -130,11 +130,12 @@ class Search:
             found = Reference(fine, *self._bounds(fine, differences, is_rough=True), tuple(differences))
         return dataclasses.replace(found, caveats=caveats)
 
-    def _bounds(self, fine: Solution, differences: list[Difference], is_rough: bool = False) -> list[float]:
+    def _bounds(self, fine: Solution, differences: list[Difference], is_rough: bool = False) -> tuple[float, float]:
         """Bounds of the errors of p and v: from the differences, and what rounding of times and samples adds."""
-        return [self._bound([getattr(d, name) for d in differences], is_rough) + shift
+        p, v = (self._bound([getattr(d, name) for d in differences], is_rough) + shift
                 + SPACING * float(np.abs(getattr(fine, name)).max())
-                for name, shift in zip("pv", self.motion.shift_at(fine.t), strict=True)]
+                for name, shift in zip("pv", self.motion.shift_at(fine.t), strict=True))
+        return p, v
 
     def _bound(self, seen: list[float], is_rough: bool) -> float:
         """Bound of the error that all differences of one variable show."""
@@ -269,7 +270,7 @@ class SearchBySeries(Search):
             if SAFETY * found.p <= self.wanted or found.p == math.inf or (is_resolved and STALL_RATIO * found.p >= before.p):
                 break
             steps_of_other *= 2
-        return nearest
+        return nearest or found
 
     def _checks(self, steps: int) -> list[Way]:
         """None in threads: their steps are few, and the first has their series compiled."""

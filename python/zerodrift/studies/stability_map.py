@@ -27,8 +27,8 @@ def _critically_damped(gain: float) -> dict[str, Any]:
     return {"stabilization": methods.Baumgarte(gain, gain**2 / 4)}
 
 
-WAYS = {"nothing": {"stabilization": None}, "Baumgarte": _critically_damped, "projection": {},
-        "projection, energy": {"energy": True}}
+WAYS: dict[str, Any] = {"nothing": {"stabilization": None}, "Baumgarte": _critically_damped, "projection": {},
+                        "projection, energy": {"energy": True}}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -162,9 +162,9 @@ def stability_map(
     return StabilityMap(label, values, steps, cells.done(), *of_references)
 
 
-def _benches(system, span, p0, v0, values, reference) -> list[Bench]:
+def _benches(system: Any, span: tuple[float, float], p0: Any, v0: Any, values: np.ndarray, reference: Any) -> list[Bench]:
     """Benches, one for each value of the parameter; the same one if the system does not depend on it."""
-    def bench(system, reference):
+    def bench(system: BaseSystem, reference: Any) -> Bench:
         reference = certified.reference(system, span, p0, v0, error=None) if reference is None else reference
         return Bench(system, span, p0, v0, reference)
 
@@ -208,4 +208,5 @@ class _Cells:
 
     def done(self) -> dict[str, tuple[tuple[Row, ...], ...]]:
         """Entries of the methods whose lines are finished."""
-        return {name: tuple(map(self._rows.get, keys)) for name, keys in self._keys.items() if self._rows.keys() >= set(keys)}
+        return {name: tuple(self._rows[key] for key in keys)
+                for name, keys in self._keys.items() if self._rows.keys() >= set(keys)}

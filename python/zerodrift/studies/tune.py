@@ -260,7 +260,9 @@ def _chooses_steps(setting: Setting) -> bool:
 
 
 def _fineness(setting: Setting) -> float:
-    return setting.tolerance if _chooses_steps(setting) else setting.step
+    found = setting.step if setting.tolerance is None else setting.tolerance
+    assert found is not None        # as a setting has one of them
+    return found
 
 
 def _scaled(setting: Setting, factor: float) -> Setting:

@@ -112,8 +112,8 @@ class WorkPrecision:
         title = (f"WorkPrecision of {self.system.name}, t = {self.t_span[0]:g} ... {self.t_span[1]:g} s: {len(self.rows)} rows, "
                  f"{failed} failed{'' if self.complete else ', interrupted'}; reference known to {self.reference_error:.2g}, "
                  f"smallest error of a run {self.smallest_error:.2g}")
-        table = [("error", "time [ms]", "evaluations", "integrator", "formulation", "steps by", "corrections")]
-        table += [_cells(row) for row in self.pareto()]
+        table = [("error", "time [ms]", "evaluations", "integrator", "formulation", "steps by", "corrections"),
+                 *map(_cells, self.pareto())]
         widths = [max(map(len, column)) for column in zip(*table, strict=True)]
         lines = ["  ".join(cell.ljust(width) for cell, width in zip(cells, widths, strict=True)).rstrip() for cells in table]
         return "\n".join([title, *("  " + line for line in lines), *not_excluded(self.reference_caveats)])
@@ -269,7 +269,7 @@ def _steps_and_tolerances(integrator: str, steps: Iterable[float], tolerances: I
     return [(step, None) for step in steps] + [(None, tolerance) for tolerance in tolerances if chooses]
 
 
-def default_steps(system, span, p0, v0) -> list[float]:
+def default_steps(system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any) -> list[float]:
     """Default fixed steps in s: multiples of the mean adaptive step of an accurate run."""
     method = max(methods.evaluating_integrators(system).values(), key=lambda card: card.order).name
     probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, integrator=method,

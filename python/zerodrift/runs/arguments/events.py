@@ -145,7 +145,7 @@ class Watched(NamedTuple):
     """Event function, checked; `value(t, p, v, x)` is a finite number."""
 
     name: str
-    function: Callable[..., float] | None   # of (t, p, v, x), x as `known` has it; None if the core evaluates the event
+    function: Any                       # float of (t, p, v, x), x as `known` has it; None if the core evaluates the event
     direction: int
     terminal: int
     known: _gateway.KnownEvent | None   # what the core reads, or None

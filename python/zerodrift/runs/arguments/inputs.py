@@ -86,10 +86,10 @@ def declared(given: Any, system: BaseSystem, speeds: Speeds, step: float | None)
         following(speeds, (), step)
         return None
     limits = given if isinstance(given, Mapping) else dict.fromkeys(_names(given))
-    names, limits = _entries(limits, system)
+    names, listed = _entries(limits, system)
     if not names:
         raise WrongValue("inputs must name at least one input", "missing-argument")
-    bounds = np.array([_limits(name, each) for name, each in zip(names, limits, strict=True)])
+    bounds = np.array([_limits(name, each) for name, each in zip(names, listed, strict=True)])
     lower, upper = (np.ascontiguousarray(column) for column in bounds.T)
     return Declared(names, lower, upper, system._with_inputs(names), following(speeds, names, step))
 

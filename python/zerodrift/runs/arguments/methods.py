@@ -28,6 +28,7 @@ class RowSettings:
     __slots__ = ()
     card: ClassVar[Row]
     table: ClassVar[str]
+    __dataclass_fields__: ClassVar[dict[str, dataclasses.Field[Any]]]       # of the classes of methods
 
     def __post_init__(self) -> None:
         for parameter in self.card.parameters:      # as Python's own numbers, so that equal settings are saved alike
@@ -50,11 +51,11 @@ def _checked(parameter: _gateway.Parameter, value: Any) -> Any:
             return _check.count(name, value)
         case "switch":
             return _check.instance(name, value, bool, "True or False")
-    limit = {"positive": {"above": 0}, "not negative": {"least": 0}}.get(parameter.rule, {})
+    above, least = (0 if parameter.rule == rule else None for rule in ("positive", "not negative"))
     if parameter.size == 1:
-        return _check.number(name, value, **limit)
+        return _check.number(name, value, above=above, least=least)
     values = _check.vector(name, value, parameter.size)
-    return tuple(_check.number(f"{name}[{i}]", each, **limit) for i, each in enumerate(values))
+    return tuple(_check.number(f"{name}[{i}]", each, above=above, least=least) for i, each in enumerate(values))
 
 
 def _numbers(parameter: _gateway.Parameter, value: Any) -> tuple[float, ...]:
@@ -65,6 +66,7 @@ def _numbers(parameter: _gateway.Parameter, value: Any) -> tuple[float, ...]:
 
 def _initial(parameter: _gateway.Parameter) -> Any:
     """Default value of a parameter, as a user would write it."""
+    assert parameter.initial      # as no parameter of a method is derived from others
     first = parameter.initial[0]
     match parameter.rule:
         case "choice":
@@ -164,10 +166,9 @@ def _class_of(card: Row) -> type[RowSettings]:
     fields = [(parameter.name, "str" if parameter.rule == "choice" else KINDS[parameter.rule], _initial(parameter))
               for parameter in card.parameters]
     words = {f"{parameter.name.upper()}S": parameter.words for parameter in card.parameters if parameter.rule == "choice"}
-    made = dataclasses.make_dataclass(name, fields, bases=(RowSettings,), frozen=True, slots=True, namespace={
-        "__doc__": _documentation(table, card, name), "card": card, "table": table, "__module__": __name__, **words})
-    made.__reduce__ = _reduced      # the class may not be an attribute of a module
-    return made
+    return dataclasses.make_dataclass(name, fields, bases=(RowSettings,), frozen=True, slots=True, namespace={
+        "__doc__": _documentation(table, card, name), "card": card, "table": table, "__module__": __name__,
+        "__reduce__": _reduced, **words})       # the class may not be an attribute of a module
 
 
 def _reduced(settings: RowSettings) -> tuple[Any, ...]:

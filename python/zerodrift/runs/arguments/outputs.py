@@ -25,7 +25,7 @@ class Recorded:
 
     def columns(self, rows: np.ndarray) -> dict[str, np.ndarray]:
         """Measures by name, (k,) or (k, size) each, from the recorded samples."""
-        parts = zip(self.names, self.core.split(rows), strict=True)
+        parts = zip(self.names, self.core.split(rows) if self.core else (), strict=True)
         return {name: part[:, 0] if part.shape[1] == 1 else part for name, part in parts}
 
 

@@ -144,7 +144,8 @@ def plan(system: BaseSystem, span: tuple[float, float], given: Arguments) -> Che
         found = _plan.__wrapped__(*key)
     if found.requires & ~core_of(system).provides:
         _refuse_corrections(system, found.corrections)
-    settings, course = found.settings.copy(), {"t0": span[0], "t1": span[1]}
+    settings = found.settings.copy()
+    course: dict[str, Any] = {"t0": span[0], "t1": span[1]}
     _check_resolved(settings, span)
     if given.t_eval is None:
         rows = saved_rows(span, settings)
@@ -175,8 +176,9 @@ VECTOR_UNITS = ("baseline", "avx2", "avx512")       # index: number in the core
 
 def vector_unit(given: str | None) -> str:
     """Vector unit from the argument `vector`, else from ZERODRIFT_VECTOR, else the widest of the processor."""
-    name, said = "vector", given
-    if given is None:
+    if given is not None:
+        name, said = "vector", given
+    else:
         name, said = "ZERODRIFT_VECTOR", os.environ.get("ZERODRIFT_VECTOR") or VECTOR_UNITS[_gateway.PROCESSOR_UNIT]
     _check.choice(name, said, VECTOR_UNITS)
     if VECTOR_UNITS.index(said) > _gateway.PROCESSOR_UNIT:
@@ -229,7 +231,7 @@ def _tolerances(integrator: Any, given: dict[str, Any]) -> dict[str, Any]:
     given = {name: None if name.startswith("max_") and value == math.inf else value for name, value in given.items()}
     values = TOLERANCES | {name: value for name, value in given.items() if value is not None}
     least = {"rtol": FINEST_RTOL, "atol": 0.0}
-    found = {name: None if value is None else _check.number(
+    found: dict[str, Any] = {name: None if value is None else _check.number(
         name, value, least=least.get(name), code="tolerance" if name in least else "step-size") for name, value in values.items()}
     if found["max_move"] is not None:
         _check.number("max_move", found["max_move"], above=0, code="step-size")

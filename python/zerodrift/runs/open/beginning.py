@@ -63,7 +63,8 @@ class Prepared(NamedTuple):
         """New record for the samples of the core's run, in memory or in the file, whose header is written."""
         if self.path:
             record = recording.file_of_samples().SampleFile(self.path, self.core, self.outputs, self.rows)
-            sizes = dict(zip(self.recorded.names, self.outputs.sizes, strict=True)) if self.outputs else {}
+            recorded = self.recorded
+            sizes = dict(zip(recorded.names, recorded.core.sizes, strict=True)) if recorded and recorded.core else {}
             record.begin({"settings": self.settings, "system": self.system, "t_span": self.span}, run.results().sizes, sizes)
             return record
         recording.check_memory(self.rows or 0, _gateway.row_bytes(self.core, self.outputs), stacklevel=3)

@@ -159,15 +159,15 @@ def _rests(solution: Solution) -> bool:
 
 def _numerical_energy(solution: Solution) -> Iterator[str]:
     """Messages on energy errors of integration and corrections that exceed both rounding and the allowed limits."""
-    violation = solution.energy_violation
-    if violation is None or not len(violation):
+    violation, potential = solution.energy_violation, solution.potential_energy
+    if violation is None or potential is None or not len(violation):
         return
     error, correction, kinetic = _largest(violation), solution.stats["energy_corrected"], solution.stats["largest_kinetic"]
     if error < LARGEST_ENERGY_ERROR * kinetic and correction <= LARGEST_ENERGY_CORRECTION * kinetic:
         return      # all the more where the rows have seen more kinetic energy
     # All samples may be at turning points; the statistics include the steps between them.
     kinetic = max(_largest(solution.kinetic_energy), kinetic)
-    rounding = ENERGY_ROUNDING * (kinetic + _largest(solution.potential_energy)) + _rounding_at_rest(solution)
+    rounding = ENERGY_ROUNDING * (kinetic + _largest(potential)) + _rounding_at_rest(solution)
     if not kinetic:
         if error > rounding:
             yield f"the energy balance is off by {error:.2g} J, and nothing was seen to move"

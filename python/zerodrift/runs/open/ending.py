@@ -20,6 +20,7 @@ from ..samples.saving import EVENTS
 from ..samples.solution import Solution
 from . import diagnosis
 from .beginning import Prepared
+from .keyboard import Keyboard
 
 EVALUATIONS = 6.0       # of terms in a corrected step of "rk4"
 EXPLICIT = "rk4"        # an integrator that uses closed-form functions wherever the formulation does
@@ -110,7 +111,7 @@ def message_of(run: _gateway.Run, outcome: Outcome) -> str:
             return run.message
 
 
-def _shown(error: BaseException) -> str:
+def _shown(error: BaseException | None) -> str:
     """The `repr` of an error, or the name of its class if that fails."""
     try:
         return repr(error)
@@ -128,7 +129,8 @@ def events_found(watcher: _gateway.Watcher | None) -> dict[str, tuple[np.ndarray
     return dict(zip(EVENTS, tuple(zip(*arrays, strict=True)) or ((), (), ()), strict=True))
 
 
-def finished(solution: Solution, run, results, outcome, on_failure, keyboard) -> Solution:
+def finished(solution: Solution, run: _gateway.Run, results: _gateway.Results, outcome: Outcome, on_failure: str,
+             keyboard: Keyboard) -> Solution:
     """Return the solution, with warnings where it is doubtful; or raise an error that has it as an attribute."""
     interrupted = isinstance(outcome.error, KeyboardInterrupt)
     if keyboard.pressed and not interrupted:    # Ctrl-C came after the last slice, or while something else failed
@@ -171,7 +173,7 @@ def beyond_reach(system: BaseSystem, run: _gateway.Run, settings: dict[str, Any]
     return next(filter(None, found), "")
 
 
-def with_solution(error: BaseException, solution: Solution, note: str | None = None) -> BaseException:
+def with_solution(error: Any, solution: Any, note: str | None = None) -> BaseException:
     """The error with the solution as an attribute, if its class allows attributes."""
     with contextlib.suppress(Exception):
         error.solution = solution

@@ -88,7 +88,7 @@ class ManyRuns:
                  step: float | None = None, inputs: Any = None, hold: bool = False, ramp: float | None = None,
                  **settings: Any) -> None:
         t0, count = _check.number("t0", t0), _check.count("runs", runs)
-        first = [_first(name, each, count) for name, each in (("p0", p0), ("v0", v0))]
+        first = _first("p0", p0, count), _first("v0", v0, count)
         ready = prepared(system, nominal_span(t0, step), *first, None, None, None, known_settings(step, settings),
                          inputs=inputs, speeds=Speeds(hold, ramp), is_open=True)
         if count >= FEWEST_IN_LANES:
@@ -97,7 +97,8 @@ class ManyRuns:
         self.inputs = np.zeros((count, len(ready.declared.names) if ready.declared else 0))
         self._places = ready.declared.places() if ready.declared else {}
         self._ready = _of_each(ready, count, _tables(parameters, count), _check_states(ready, p0, v0, count), self.inputs)
-        self._parts, self._pool = _parts(count, 1 if ready.core.calls_python else processors()), None
+        self._parts = _parts(count, 1 if ready.core.calls_python else processors())
+        self._pool: ThreadPoolExecutor | None = None
         self._core = _gateway.ManyOpenRuns([each.created(_gateway.OpenRun) for each in self._ready], self._ready, self._parts)
         self._readings: dict[int, Reading] = {}
 

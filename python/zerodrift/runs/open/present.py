@@ -6,15 +6,27 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check
+from ... import _check, _gateway
 from ...errors import WrongValue
 from ..arguments.inputs import refuse_unknown
 from ..samples.summary import run_summary
+from ..states.reading import Reading
+from .beginning import Prepared
 from .ending import with_reason
 
 
 class Present:
     """Values of an open run at its present time."""
+
+    def _prepare(self, ready: Prepared) -> None:
+        self._ready, self.system, self.settings = ready, ready.system, ready.settings
+        self.inputs = ready.inputs.values if ready.inputs else np.empty(0)
+        self._places = ready.declared.places() if ready.declared else {}
+
+    def _open(self, core: _gateway.OpenRun) -> None:
+        """Read the core's run, from now on."""
+        self._core, self._c = core, core.c
+        self._reading = Reading(self._ready.of, core, self._ready)
 
     @property
     def t(self) -> float:
@@ -90,7 +102,7 @@ class Present:
             raise WrongValue(f"input {name!r} must be set to real numbers of shape {np.shape(self._places[name])}, not "
                              f"{_check.shown(value)}", "shape") from None
 
-    def _place_of(self, name: Any) -> int:
+    def _place_of(self, name: Any) -> int | np.ndarray:
         """Index of an input, by its name or its measure."""
         name = getattr(name, "name", name)
         if name in self._places:

@@ -5,18 +5,15 @@ from __future__ import annotations
 import warnings
 from typing import Any
 
-import numpy as np
-
 from ... import _check, _gateway
 from ...errors import StateWarning, WrongState, WrongValue
-from ..arguments.inputs import Drives, History, Jump, Speeds
+from ..arguments.inputs import History, Speeds
 from ..samples import recording
 from ..samples.solution import Solution
-from ..states.reading import Reading
 from . import diagnosis
 from .beginning import Prepared, known_settings, nominal_span, prepared
-from .control import Sampling, controls
-from .ending import Outcome, finish_file, solution_of
+from .control import controls
+from .ending import Outcome, finish_file
 from .run_state import restored, saved, unpacked
 from .stepping import Stepping
 
@@ -137,23 +134,6 @@ class Run(Stepping):
         self._lock.__enter__()
         if _check.instance("record", record, bool, "True or False") or ready.path:
             self._begin_record()
-
-    def _begin(self, ready: Prepared, of: Any) -> None:
-        """Create the core's run at the start of `ready`, without a record."""
-        self._ready, self.system, self.settings = ready, ready.system, ready.settings
-        self._controllers, self._is_controlled = of, False
-        self._sampling = Sampling(of, ready.span[0], ready.settings["step"]) if of else None
-        self._record, self._c_record, self._history, self._seconds = None, _gateway.NO_RECORD, None, 0.0
-        self._drives = Drives(ready.declared) if ready.declared and ready.declared.follows.jumps else None
-        self.inputs = ready.inputs.values if ready.inputs else np.empty(0)
-        self._places = ready.declared.places() if ready.declared else {}
-        self._open(ready.created(_gateway.OpenRun))
-
-    def _open(self, core: _gateway.OpenRun) -> None:
-        self._core, self._c = core, core.c
-        self.jump: Jump | None = None
-        self._jumps = core.jumps
-        self._reading = Reading(self._ready.of, core, self._ready)
 
     @classmethod
     def of(cls, ready: Prepared, controllers: Any) -> Run:
@@ -326,11 +306,6 @@ class Run(Stepping):
             self.close()
         diagnosis.warn(solution, stacklevel=2)
         return solution
-
-    def _solution(self, outcome: Outcome) -> Solution:
-        record = self._record if self._ready.path else self._record.snapshot()
-        span = self._ready.span[0], self.t
-        return solution_of(self._ready, self._core, record, self._core.results(), outcome, span, self._history)
 
     def close(self) -> None:
         """Stop recording, and let go of the file of `save_to`."""

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import math
 import time
+from typing import Any
 
 from ... import _check, _gateway
 from ...errors import InUse, WrongValue
+from ..arguments.inputs import Drives, History, Jump
 from ..samples import recording
-from .ending import Outcome, failure_of, with_solution
+from ..samples.solution import Solution
+from .beginning import Prepared
+from .control import Sampling
+from .ending import Outcome, failure_of, solution_of, with_solution
 from .present import Present
 
 SLICE = 0.03        # seconds that the core runs between two checks of keyboard and progress
@@ -16,6 +21,22 @@ SLICE = 0.03        # seconds that the core runs between two checks of keyboard 
 
 class Stepping(Present):
     """An open run that makes steps."""
+
+    def _begin(self, ready: Prepared, of: Any) -> None:
+        """Create the core's run at the start of `ready`, without a record."""
+        self._prepare(ready)
+        self._controllers, self._is_controlled = of, False
+        self._sampling = Sampling(of, ready.span[0], ready.settings["step"]) if of else None
+        self._record: Any = None
+        self._history: History | None = None
+        self._c_record, self._seconds = _gateway.NO_RECORD, 0.0
+        self._drives = Drives(ready.declared) if ready.declared and ready.declared.follows.jumps else None
+        self._open(ready.created(_gateway.OpenRun))
+
+    def _open(self, core: _gateway.OpenRun) -> None:
+        super()._open(core)
+        self.jump: Jump | None = None
+        self._jumps = core.jumps
 
     def step(self, steps: int = 1) -> None:
         """Make steps: fixed ones, or as many as the integrator chooses.
@@ -41,7 +62,7 @@ class Stepping(Present):
         """
         if self._sampling is not None:
             self._require_idle()
-            self._sample(self.steps + _check.count("steps", steps, least=0), math.inf)
+            self._sample(self._sampling, self.steps + _check.count("steps", steps, least=0), math.inf)
         elif self._record is not None or self._drives is not None:
             self._go(_check.count("steps", steps, least=0), math.inf)
         elif status := _gateway.STEP(self._c, steps, self._c_record):
@@ -68,7 +89,7 @@ class Stepping(Present):
         t = _check.number("t", t, least=self.t)
         if self._sampling is not None:
             self._require_idle()
-            self._sample(_gateway.MAX_STEPS, t)
+            self._sample(self._sampling, _gateway.MAX_STEPS, t)
         else:
             self._go(_gateway.MAX_STEPS, t)
 
@@ -78,9 +99,8 @@ class Stepping(Present):
             raise InUse("a controller must not step, advance, reset, restore or close the run that it is given: it sets inputs; "
                         "run.copy() is another run, which it may move")
 
-    def _sample(self, last: int, t: float) -> None:
+    def _sample(self, sampling: Sampling, last: int, t: float) -> None:
         """Advance to a number of steps or to a time, with calls of the controllers that are due."""
-        sampling = self._sampling
         step = self.settings["step"]
         rounding = 0.0 if step is None else 1e-9 * step
         while self.steps < last and t - self.t > rounding:
@@ -139,6 +159,11 @@ class Stepping(Present):
             _check.tell(error, note)
         raise error
 
+    def _solution(self, outcome: Outcome) -> Solution:
+        record = self._record if self._ready.path else self._record.snapshot()
+        span = self._ready.span[0], self.t
+        return solution_of(self._ready, self._core, record, self._core.results(), outcome, span, self._history)
+
     def _control(self) -> None:
         """Call the controllers that are due, and aim at the next instant of one."""
         core, sampling = self._core, self._sampling
@@ -152,6 +177,6 @@ class Stepping(Present):
     def _goes_on(self) -> bool:
         """True if a run with an end has reached an instant of a controller, not its end."""
         ready = self._ready
-        requested = ready.settings.get("t_eval", ()) if ready.events is None else ()
-        end = requested[-1] if len(requested) else ready.span[1]
+        requested = ready.settings.get("t_eval") if ready.events is None else None
+        end = ready.span[1] if requested is None else requested[-1]
         return self._sampling is not None and self._core.t < end and self.event is None

@@ -31,9 +31,10 @@ class Threads:
 
     def __init__(self, work: Callable[[Any, _gateway.Stop], None], parts: Iterator[Any]) -> None:
         self._work, self._parts = work, parts
-        self._lock, self._error, self._stop = threading.Lock(), None, _gateway.Stop()
+        self._lock, self._stop = threading.Lock(), _gateway.Stop()
+        self._error: BaseException | None = None
 
-    def run(self, count: int, look: Callable[[], None]) -> None:
+    def run(self, count: int, look: Callable[[], Any]) -> None:
         """Do all parts in `count` threads; meanwhile this thread calls `look` regularly. In WebAssembly this thread does them."""
         if _webassembly.IS_USED:
             for part in self._parts:
@@ -71,7 +72,7 @@ class Threads:
             return None if self._stop() else next(self._parts, None)
 
 
-def side_by_side(work: Callable[[Any, _gateway.Stop | None], None], parts: Sequence[Any], look: Callable[[], None] = int, *,
+def side_by_side(work: Callable[[Any, _gateway.Stop | None], None], parts: Sequence[Any], look: Callable[[], Any] = int, *,
                  in_threads: bool) -> None:
     """Do all parts in one thread per available processor, or one after the other if they call Python functions."""
     if in_threads and not _webassembly.IS_USED:

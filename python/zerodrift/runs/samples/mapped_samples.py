@@ -114,6 +114,8 @@ def _unfinished(description: dict[str, Any], t: np.ndarray) -> dict[str, Any]:
 
 def _split(rows: np.ndarray | None, sizes: Mapping[str, int]) -> dict[str, np.ndarray]:
     """Measures by name, (k,) or (k, size) each, from the samples (k, sum of sizes) of all of them."""
+    if rows is None:
+        return {}
     ends = itertools.accumulate(sizes.values())
     parts = {name: rows[:, end - size:end] for (name, size), end in zip(sizes.items(), ends, strict=True)}
     return {name: part[:, 0] if part.shape[1] == 1 else part for name, part in parts.items()}

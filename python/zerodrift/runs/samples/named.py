@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ... import _gateway
 from ...errors import WrongName
+from ...systems.base import BaseSystem
 from ...systems.measure_values import AXES, view
 
 
@@ -21,6 +22,13 @@ class Stats(dict):
 
 class Named:
     """Columns of a solution by name: coordinates, velocities, multipliers and measures."""
+
+    if TYPE_CHECKING:       # fields of a solution
+        system: BaseSystem
+        p: np.ndarray
+        v: np.ndarray
+        multipliers: np.ndarray
+        outputs: dict[str, np.ndarray]
 
     def __getitem__(self, name: Any) -> np.ndarray:
         """Values of a coordinate, velocity, measure, or multiplier of a constraint at all samples, by name.

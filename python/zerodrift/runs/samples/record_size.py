@@ -30,7 +30,7 @@ class RecordSize(NamedTuple):
 
     def __str__(self) -> str:
         each = f"samples of {memory.in_words(self.row)}"
-        return each if self.rows is None else f"{self.rows} {each}: {memory.in_words(self.total)}"
+        return each if self.total is None else f"{self.rows} {each}: {memory.in_words(self.total)}"
 
 
 def record_size(system: Any, t_span: float | tuple[float, float], *, step: float | None = None, t_eval: Any = None,
@@ -64,8 +64,9 @@ def record_size(system: Any, t_span: float | tuple[float, float], *, step: float
     core, recorded = core_of(system), None
     if outputs is not None:
         recorded = _outputs.Recorded(_outputs.names(outputs, system), system, core).core
-    chosen = {"step": None if step is None else _check.number("step", step, above=0, code="step-size"),
-              "save_every": _check.count("save_every", save_every)}
+    chosen: dict[str, Any] = {
+        "step": None if step is None else _check.number("step", step, above=0, code="step-size"),
+        "save_every": _check.count("save_every", save_every)}
     rows = settings.saved_rows(span, chosen)
     if t_eval is not None:
         rows = len(settings.times_to_save(t_eval, chosen["save_every"], span))

@@ -134,7 +134,8 @@ class SampleFile:
     def finish(self, solution: Solution) -> None:
         """Write the number of samples, and after the samples the fields of the solution that are not columns of them."""
         rest, inputs = io.BytesIO(), {name: values for name, values in solution.outputs.items() if name not in self._outputs}
-        np.savez(rest, **packed({name: getattr(solution, name) for name in NOT_IN_ROWS} | {"outputs": inputs}))
+        fields = packed({name: getattr(solution, name) for name in NOT_IN_ROWS} | {"outputs": inputs})
+        np.savez(rest, **fields)        # type: ignore[arg-type]
         with self._file:
             self._file.seek(self._begin + self.rows * self._row)
             self._put(rest.getvalue())

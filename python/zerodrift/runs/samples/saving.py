@@ -22,10 +22,9 @@ EVENTS = ("t_events", "p_events", "v_events")   # of a solution: an array for ea
 
 def write(path: Path, values: Mapping[str, Any]) -> None:
     """Writes the fields of a solution."""
-    from ..._writing import write_atomically  # pathlib is slow to import
+    from ..._writing import write_arrays  # pathlib is slow to import
 
-    arrays = packed(values)
-    write_atomically(path, lambda file: np.savez_compressed(file, **arrays))
+    write_arrays(path, packed(values), np.savez_compressed)
 
 
 def packed(values: Mapping[str, Any]) -> dict[str, np.ndarray]:
@@ -147,7 +146,7 @@ class Described(BaseSystem):
         return repr(self)       # sizes, rows and parameters were not saved
 
 
-def restored_system(description: dict[str, Any], rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> BaseSystem:
+def restored_system(description: dict[str, Any], rebuilt: Callable[[dict[str, Any]], Any]) -> BaseSystem:
     if "mechanism" in description:
         return rebuilt(description)
     if "parameters" in description and description["name"] in FACTORIES:

@@ -6,7 +6,7 @@ import bisect
 import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -119,6 +119,8 @@ class Solution(Named):
     p_events: tuple[np.ndarray, ...] | None = None
     v_events: tuple[np.ndarray, ...] | None = None
     outputs: dict[str, np.ndarray] = field(default_factory=dict)
+
+    _repr_html_: ClassVar[Callable[[Solution], str]]      # set by the package, as runs know nothing of films
 
     def __post_init__(self) -> None:
         vars(self)["stats"] = Stats(self.stats)

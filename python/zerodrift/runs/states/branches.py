@@ -156,13 +156,15 @@ class _Branch:
 
 def _pivots(C: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Independent rows of C, and as many columns, from an elimination with complete pivoting."""
-    C, rows, columns = C.copy(), [], []
+    C = C.copy()
+    pivots: list[tuple[int, int]] = []
     enough = NEGLIGIBLE * np.abs(C).max(initial=0.0)
     for _ in range(min(C.shape)):
         row, column = np.unravel_index(np.abs(C).argmax(), C.shape)
         if not abs(C[row, column]) > enough:
             break
-        rows.append(int(row)), columns.append(int(column))
+        pivots.append((int(row), int(column)))
         C = C - np.outer(C[:, column], C[row]) / C[row, column]
         C[row], C[:, column] = 0, 0
-    return np.array(rows, dtype=int), np.array(columns, dtype=int)
+    rows, columns = np.array(pivots, dtype=int).reshape(-1, 2).T
+    return rows, columns

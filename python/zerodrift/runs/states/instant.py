@@ -39,16 +39,17 @@ class Reading:
         group, column = of._column(name)
         return float(getattr(self, ("p", "v", "multipliers")[group])[column])
 
-    def _state_for(self, number: int) -> list[np.ndarray]:
+    def _state_for(self, number: int) -> tuple[np.ndarray, ...]:
         """Arguments of a measure, (1, ...) each: accelerations and least multipliers for one that depends on them."""
-        core, states = self.system._watching.core, [np.array([float(self.t)]), *map(_sample, (self.p, self.v))]
+        core, states = self.system._watching.core, (np.array([float(self.t)]), _sample(self.p), _sample(self.v))
         if core.measure_depends(number) != "accelerations":
             return states
-        states.append(_sample(self.vdot))
+        vdot = _sample(self.vdot)
         if self._least is None:
             given = _sample(self.multipliers)
-            self._least = core.measure(number, *states, given, wanted="least", acting=self._acting) if self.system.m else given
-        return [*states, self._least]
+            self._least = given if not self.system.m else core.measure(
+                number, *states, vdot, given, wanted="least", acting=self._acting)
+        return *states, vdot, self._least
 
 
 class KnownInstant(Reading):
@@ -147,7 +148,7 @@ def start_of(system: Any, p0: Any, v0: Any, t0: float) -> tuple[BaseSystem, Any,
     if v0 is not None:
         raise WrongType("v0 must be left out where p0 is an equilibrium or an instant, which has its velocities",
                         "conflicting-arguments")
-    system = system.system(p0.system.layout) if isinstance(system, Makes) else system
+    system = system.system(getattr(p0.system, "layout", None)) if isinstance(system, Makes) else system
     if [each.name for each in system.coordinates] != [each.name for each in p0.system.coordinates]:
         raise WrongValue(f"p0 must be an equilibrium or an instant of {system.name} in its coordinates, not of {p0.system.name} "
                          "in others", "wrong-element")

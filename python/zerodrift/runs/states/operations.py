@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -177,7 +177,8 @@ def _options(formulation: str, projection: methods.Projection) -> Any:
     return _gateway.settings({"formulation": row, **settings.given(formulation, projection)})
 
 
-def _corrected(system, p, v, t, projection, formulation, holds) -> tuple[np.ndarray, np.ndarray]:
+def _corrected(system: Any, p: Any, v: Any, t: Any, projection: methods.Projection, formulation: str | None,
+               holds: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
     of = system_of(system)
     core = core_of(of)
     p, v = _check.vector("p", p, core.nq), _check.vector("v", v, core.nv)
