@@ -6,15 +6,14 @@ The build of the core runs this file by itself, before there is a package, so it
 from __future__ import annotations
 
 import hashlib
-import itertools
 import os
 import re
 from typing import Any
 
 COMMENT = re.compile(rb"/\*.*?\*/|//[^\n]*", re.DOTALL)
-# Structures and enumerations, nested ones up to the brace in the first column; calls that lay out memory
-LAYOUT = re.compile(rb"^(?:typedef )?(?:struct|enum|union)\b[^;(){}]*\{(?:[^{}]*\}|.*?^\})[^;]*;|\bzd_arena_\w+\([^;{]*;",
-                    re.DOTALL | re.MULTILINE)
+# Structures and enumerations, nested ones up to the brace in the first column
+STRUCTURE = re.compile(rb"^(?:typedef )?(?:struct|enum|union)\b[^;(){}]*\{(?:[^{}]*\}|.*?^\})[^;]*;", re.DOTALL | re.MULTILINE)
+STATEMENT = re.compile(rb"[^;{}]+")
 
 
 def fingerprint(*parts: Any) -> str:
@@ -38,9 +37,13 @@ def core_fingerprint(root: str | os.PathLike[str]) -> str:
 
 
 def layout_fingerprint(root: str | os.PathLike[str]) -> str:
-    """The fingerprint of the memory of a run: structures, enumerations and the order of allocations, without what computes."""
-    found = (LAYOUT.findall(COMMENT.sub(b"", _read(path))) for path in _sources(os.fspath(root)))
-    return fingerprint(*(b" ".join(each.split()) for each in itertools.chain(*found)))
+    """The fingerprint of the memory of a run: structures, enumerations and what takes an arena, without what computes."""
+    digested: list[bytes] = []
+    for path in _sources(os.fspath(root)):
+        code = COMMENT.sub(b"", _read(path))
+        digested += STRUCTURE.findall(code)
+        digested += [each for each in STATEMENT.findall(code) if b"arena" in each]
+    return fingerprint(*(b" ".join(each.split()) for each in digested))
 
 
 def _sources(root: str) -> list[str]:
