@@ -147,8 +147,10 @@ def _scalars(made: Chosen) -> list[Scalar]:
     watching = made.system._watching
     found = [Scalar(i, name, "input", core.input_unit(name), value) for i, (name, value) in enumerate(core.inputs.items(), 1)]
     for name in made.outputs or ():
-        shape = watching.find(name).pick(np.zeros((1, watching.known[name][1]))).shape[1:]
-        found += [Scalar(i, each, "output", watching.unit(name), 0.0)
+        place = watching.find(name)
+        assert place is not None        # as outputs are measures
+        shape = place.pick(np.zeros((1, watching.known[name][1]))).shape[1:]
+        found += [Scalar(i, each, "output", watching.unit(name) or "", 0.0)
                   for i, each in enumerate(component_names(name, shape), len(found) + 1)]
     return found
 

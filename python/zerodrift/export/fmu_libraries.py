@@ -60,15 +60,15 @@ def libraries(files: CoreFiles, own: Mapping[str, str], version: str, platforms:
 
 def _of_this_platform(files: CoreFiles, own: Mapping[str, str], version: str) -> Library:
     here = MACHINES.get(platform.machine().lower()), SYSTEMS.get(sys.platform)
-    name = next((name for name, there in PLATFORMS[version].items() if there == here), None)
-    if name is None:
+    name, system = next(((name, there[1]) for name, there in PLATFORMS[version].items() if there == here), ("", ""))
+    if not name:
         raise WrongValue(f"FMI {version} has no name for this platform, {sys.platform} on {platform.machine()}")
     compiler = compilers.find()
     if compiler is None or compiler.is_like_msvc:
         raise CompilationFailed(f"an FMU needs a C compiler with the options of gcc (looked for {compilers.looked_for()})")
     command = compiler.command
     core = core_build.compiled(files, command, FLAGS, join=[*command, "-r", "-nostdlib", "-o"], product="core.o")
-    return Library(name, SUFFIXES[here[1]], _linked(files, own, command, {"core.o": core}))
+    return Library(name, SUFFIXES[system], _linked(files, own, command, {"core.o": core}))
 
 
 def _of_platform(files: CoreFiles, own: Mapping[str, str], name: str, machine: str, system: str) -> Library:

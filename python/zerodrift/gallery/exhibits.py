@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ast
 import inspect
+import sys
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -66,7 +67,7 @@ class Exhibit(NamedTuple):
     @property
     def source(self) -> str:
         """The model's own lines: its file without docstrings and imports."""
-        text = inspect.getsource(inspect.getmodule(getattr(models, self.name)))
+        text = inspect.getsource(sys.modules[getattr(models, self.name).__module__])
         dropped: set[int] = set()
         for node in ast.walk(tree := ast.parse(text)):
             if isinstance(node, ast.Module | ast.FunctionDef | ast.ClassDef) and ast.get_docstring(node, clean=False) is not None:

@@ -59,7 +59,8 @@ def film(exhibit: Exhibit, *, frames: int = 16, width: int = 240, height: int = 
 
 
 def _picture(canvas: FigureCanvasAgg, moving: FuncAnimation, frame: int) -> Image.Image:
-    moving._func(frame)         # what a writer of matplotlib calls for each frame, which would draw it at full colour
+    # A writer of matplotlib calls this for each frame, and would draw it at full colour.
+    moving._func(frame)         # type: ignore[attr-defined]
     canvas.draw()
     canvas.figure.set_layout_engine("none")     # the first picture's is kept: axes stay in place, and it takes most of the time
     return Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")

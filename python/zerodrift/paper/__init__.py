@@ -68,7 +68,7 @@ FOUR_BAR = Example(
     })
 
 # The paper's own reference solution for example 1.
-FOUR_BAR_REFERENCE = {"step": 0.0005, "formulation": "augmented", "stabilization": None}
+FOUR_BAR_REFERENCE: dict[str, Any] = {"step": 0.0005, "formulation": "augmented", "stabilization": None}
 
 OSCILLATOR = Example(
     system=systems.oscillator(mass=1.0, stiffness=10.0, x0=0.1, v0=0.0),

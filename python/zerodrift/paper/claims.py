@@ -216,9 +216,9 @@ def figure_9(runs: Runs) -> list[Claim]:
 # ---- what is measured ----
 
 
-def largest(values: np.ndarray) -> float:
-    """Largest magnitude."""
-    return float(np.abs(values).max(initial=0.0))
+def largest(values: np.ndarray | None) -> float:
+    """Largest magnitude; NaN without values."""
+    return np.nan if values is None else float(np.abs(values).max(initial=0.0))
 
 
 def link_1_error(sol: Solution) -> np.ndarray:

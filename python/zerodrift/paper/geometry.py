@@ -117,20 +117,22 @@ def _manifold(ax: Axes, title: str) -> None:
 
 def _arrow(ax: Axes, start: np.ndarray, way: np.ndarray, colour: str, name: str, side: int = 1) -> None:
     end = start + way
-    ax.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 2, "shrinkA": 0, "shrinkB": 0})
+    ax.annotate("", tuple(end), tuple(start), arrowprops={
+        "arrowstyle": "-|>", "color": colour, "linewidth": 2, "shrinkA": 0, "shrinkB": 0})
     ax.plot(*np.array([start, end]).T, alpha=0)     # axes get limits from lines only
     aside = side * 0.09 * np.array([-way[1], way[0]]) / np.hypot(*way)
-    ax.text(*(start + 0.6 * way + aside), name, color=colour, ha="center", va="center", fontsize=13)
+    x, y = start + 0.6 * way + aside
+    ax.text(x, y, name, color=colour, ha="center", va="center", fontsize=13)
 
 
 def _point(ax: Axes, at: np.ndarray, colour: str, name: str) -> None:
     ax.plot(*at, "o", color=colour, markersize=7, zorder=3)
-    ax.annotate(name, at, (-9, -9), textcoords="offset points", color=colour, ha="right", va="top", fontsize=13)
+    ax.annotate(name, tuple(at), (-9, -9), textcoords="offset points", color=colour, ha="right", va="top", fontsize=13)
 
 
 def _between(ax: Axes, start: np.ndarray, end: np.ndarray, name: str, aside: tuple[float, float]) -> None:
-    ax.annotate("", end, start, arrowprops={"arrowstyle": "<->", "color": "black", "shrinkA": 3, "shrinkB": 0})
-    ax.annotate(name, (start + end) / 2, aside, textcoords="offset points", ha="right", va="center", fontsize=9)
+    ax.annotate("", tuple(end), tuple(start), arrowprops={"arrowstyle": "<->", "color": "black", "shrinkA": 3, "shrinkB": 0})
+    ax.annotate(name, tuple((start + end) / 2), aside, textcoords="offset points", ha="right", va="center", fontsize=9)
 
 
 def _explained(figure: Figure, columns: int = 3) -> Figure:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import operator
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -59,5 +60,5 @@ def reproduce(folder: Path) -> str:
             figure.set_layout_engine("none")    # the first file laid it out, which takes longer than all else here
     table = claims.as_text(measured)
     for name, content in ("claims.txt", table), ("claims.csv", claims.as_csv(measured)):
-        write_atomically(folder / name, lambda file, content=content: file.write(content.encode()))
+        write_atomically(folder / name, operator.methodcaller("write", content.encode()))
     return table

@@ -127,7 +127,8 @@ class Exploration:
 
     def __repr__(self) -> str:
         values = ", ".join(f"{name} = {value:g}" for name, value in self.values.items())
-        return f"<exploration of {values}: {self.message or self.solution.message}>"
+        message = self.solution.message if self.solution is not None else self.message
+        return f"<exploration of {values}: {message}>"
 
 
 def explore(system: Any, parameters: Mapping[str, tuple[float, float]], t_span: Any = 10.0, **options: Any) -> Exploration:

@@ -111,7 +111,7 @@ def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None 
                          "not-available")
     speed = 1.0 if speed is None else _check.number("speed", speed, above=0)
     sol = _motion(system, step, options)
-    points = body_points(system, sol.p)
+    points = body_points(system, list(sol.p))
     inputs, limits = _given(system, sliders) if sliders is not None else (_inputs(system), {})
     chosen = choose(system, None, None, 0.0, step, [], list(inputs), options)._replace(
         has_grip=True, watched=tuple(map(driven_coordinate, system._drawing.of((Motor, Actuator)))))
@@ -147,7 +147,7 @@ def _motion(system: MechanismSystem, step: float, options: Mapping[str, Any]) ->
 
 def _drawn(points: BodyPoints) -> dict[str, Any]:
     """Shapes, points on the ground, and points (body, 1 if it is a direction, coordinates in the body)."""
-    numbers, fixed, carried = [], [], []
+    numbers, fixed, carried = list[int](), list[Any](), list[Any]()
     for body, is_direction, own in zip(points.bodies, points.directions, points.local, strict=True):
         if body == 0:
             fixed.append(own.tolist())

@@ -14,8 +14,12 @@ from .._writing import with_suffix, write_atomically
 class Page:
     """An HTML page in one file; subclasses make `page`."""
 
-    page: str
     name: str       # of its temporary file
+
+    @property
+    def page(self) -> str:
+        """The HTML page."""
+        raise NotImplementedError
 
     def save(self, path: str | Path) -> Path:
         """Write the page to an HTML file, which needs no other file and no network; the suffix ``.html`` is added."""

@@ -201,7 +201,7 @@ def _arrows(sol: Solution, times: np.ndarray, forces: Any, scale: float) -> tupl
     if forces is False or forces is None or (isinstance(forces, list | tuple) and not forces):
         return [], []
     rows = np.unique(np.linspace(0, len(sol.t) - 1, min(len(sol.t), MAX_SAMPLES)).astype(int))
-    described, found = [], []
+    described, found = list[dict[str, Any]](), []
     for name, places, vectors in sol.system._forces(forces, sol, rows):
         ways = [np.stack([np.interp(times, sol.t[rows], column) for column in each.T], axis=1) for each in (places, vectors)]
         described.append({"name": name, "most": float(np.linalg.norm(vectors, axis=1).max(initial=0.0))})
@@ -251,7 +251,8 @@ def _packed(layer: dict[str, Any], box: tuple[np.ndarray, np.ndarray], label: st
     moves = (np.ptp(table, axis=0) > RESTS * wide.max(axis=1, keepdims=True)).any(axis=1)
     followers = carried(table, _bodies(layer, moves), float(size.max()))
     kinds = ["rests" if not moves[i] else "carried" if i in followers else "moves" for i in range(table.shape[1])]
-    numbers, lists, known = [], {"rests": [], "moves": [], "carried": []}, {}
+    lists: dict[str, list[int]] = {"rests": [], "moves": [], "carried": []}
+    numbers, known = [], {}
     for i, kind in enumerate(kinds):
         key = kind, is_vector[i], levels[0, i].tobytes() if kind == "rests" else levels[:, i].tobytes()
         if key not in known:

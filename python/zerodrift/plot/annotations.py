@@ -52,8 +52,8 @@ def hold(ax: Axes, *places: Any) -> None:
 
 def draw_path(ax: Axes, places: np.ndarray, width: float, **style: Any) -> Any:
     """Path (n, 2) or (n, 3) of a point, dashed, so that it is recognised without colour."""
-    look = {"color": PATH, "linewidth": max(1.4 * width, THINNEST), "linestyle": (0, (5, 1.6)), "zorder": 3.2, "label": "_path"}
-    look |= style
+    look: dict[str, Any] = {"color": PATH, "linewidth": max(1.4 * width, THINNEST), "linestyle": (0, (5, 1.6)), "zorder": 3.2,
+                            "label": "_path"} | style
     return ax.plot(*np.asarray(places).T, **look)[0]
 
 
@@ -90,7 +90,8 @@ class Names:
         for shape in shapes:
             if (shape.kind, shape.name) in self._texts:
                 text, offset = self._texts[shape.kind, shape.name]
-                text.set_position(_anchor(shape, self.size) + self.size * offset)
+                x, y = _anchor(shape, self.size) + self.size * offset
+                text.set_position((x, y))
         return [text for text, _ in self._texts.values()]
 
     def _offset(self, shape: Shape, shapes: Sequence[Shape]) -> np.ndarray:

@@ -180,13 +180,13 @@ def energy(sol: Solution, ax: Axes | None = None) -> Axes:
     >>> [line.get_label() for line in ax.lines]
     ['T', 'V', 'E = T + V']
     """
-    _require_energy(sol)
+    potential, put_in, _ = _energies(sol)
     ax = _style.axes(ax)
     ax.plot(sol.t, sol.kinetic_energy, label="T")
-    ax.plot(sol.t, sol.potential_energy, label="V")
-    ax.plot(sol.t, sol.kinetic_energy + sol.potential_energy, label="E = T + V")
-    if sol.energy_input.any():
-        ax.plot(sol.t, sol.energy_input, "--", label="energy input")
+    ax.plot(sol.t, potential, label="V")
+    ax.plot(sol.t, sol.kinetic_energy + potential, label="E = T + V")
+    if put_in.any():
+        ax.plot(sol.t, put_in, "--", label="energy input")
     return _style.finished(ax, "energy [J]")
 
 
@@ -220,9 +220,9 @@ def energy_violation(sol: Solution, ax: Axes | None = None, *, log: bool = False
     >>> ax.get_ylabel()
     'energy violation [J]'
     """
-    _require_energy(sol)
+    *_, violation = _energies(sol)
     ax = _style.axes(ax)
-    _style.line(ax, sol.t, sol.energy_violation, log, **style)
+    _style.line(ax, sol.t, violation, log, **style)
     return _style.finished(ax, f"{'|energy violation|' if log else 'energy violation'} [J]", legend="label" in style)
 
 
@@ -272,6 +272,10 @@ def error(sol: Solution, reference: Solution | Reference | Callable[[float], Any
     return _style.finished(ax, ("|error|" if log else "error") + subject, legend=len(variables) > 1 or "label" in style)
 
 
-def _require_energy(sol: Solution) -> None:
-    if _check.instance("sol", sol, Solution, A_SOLUTION).potential_energy is None:
+def _energies(sol: Solution) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Potential energy, energy input and energy violation of a solution that has them."""
+    _check.instance("sol", sol, Solution, A_SOLUTION)
+    potential, put_in, violation = sol.potential_energy, sol.energy_input, sol.energy_violation
+    if potential is None or put_in is None or violation is None:
         raise WrongValue(f"{sol.system.name} must declare a potential energy for its energy balance to be drawn", "not-available")
+    return potential, put_in, violation

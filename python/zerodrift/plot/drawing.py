@@ -83,31 +83,33 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
     >>> ax = zd.plot.mechanism(sol, path="F")                           # with eight other positions
     >>> ax = zd.plot.mechanism(sol, t=0.3, forces=["Z", "V"], ghosts=[0.1, 0.2])
     """
-    system_or_solution = system_of(system_or_solution, p)
-    if not isinstance(system_or_solution, Solution) and not callable(getattr(system_or_solution, "points", None)):
-        raise WrongType(f"system_or_solution must be a system or a Solution, not {_check.shown(system_or_solution)}")
-    sol = dense(system_or_solution) if isinstance(system_or_solution, Solution) else None
+    given = system_of(system_or_solution, p)
+    if not isinstance(given, Solution) and not callable(getattr(given, "points", None)):
+        raise WrongType(f"system_or_solution must be a system or a Solution, not {_check.shown(given)}")
+    sol = dense(given) if isinstance(given, Solution) else None
     _check_asked(sol, p, t=t, ghosts=ghosts, forces=forces, path=path)
     force_scale = None if force_scale is None else _check.number("force_scale", force_scale, above=0)
-    system = sol.system if sol is not None else system_or_solution
+    system = given if sol is None else sol.system
     rows = _rows(sol, p, t, ghosts)
     positions = ([] if p is None and sol is not None else [system.p0 if p is None else p])
     positions += [] if sol is None else [sol.p[row] for row in rows]
-    moments, points = _moments(system, positions, sol, names=names, path=path, forces=forces)
-    extras = NOTHING if moments is None else Extras(names, paths_of(sol, path), _arrows(sol, forces, rows[:1]), force_scale)
-    return _drawn(system, moments, points, ax, extras, moving=sol is not None and p is None)
+    moments = _moments(system, positions, sol, names=names, path=path, forces=forces)
+    extras = NOTHING if isinstance(moments, np.ndarray) else Extras(
+        names, paths_of(sol, path), _arrows(sol, forces, rows[:1]), force_scale)
+    return _drawn(system, moments, ax, extras, moving=sol is not None and p is None)
 
 
 def still_picture(system: BaseSystem, positions: Any, ax: Axes | None) -> Axes:
     """Axes with a system drawn in the first of some positions (k, nq), and faintly in the others."""
-    return _drawn(system, *_moments(system, positions, None), ax)
+    return _drawn(system, _moments(system, positions, None), ax)
 
 
-def _drawn(system: BaseSystem, moments: list[list[Shape]] | None, points: np.ndarray | None, ax: Axes | None,
+def _drawn(system: BaseSystem, moments: list[list[Shape]] | np.ndarray, ax: Axes | None,
            extras: Extras = NOTHING, *, moving: bool = False) -> Axes:
     """Axes with the first position drawn in full colours and the others faintly, or with points in space (k, n, 3)."""
-    if moments is None:
-        return draw_in_space(drawing_axes(ax, 3), points, moving=moving)
+    if isinstance(moments, np.ndarray):
+        return draw_in_space(drawing_axes(ax, 3), moments, moving=moving)
+    picture: Picture | SpacePicture
     if _is_in_space(moments):
         picture = SpacePicture(drawing_axes(ax, 3), moments, extras, upside_down=is_upside_down(system))
     else:
@@ -200,10 +202,10 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
     frames = int((sol.t[-1] - sol.t[0]) * fps / speed) + 1
     times = sol.t[0] + np.arange(frames) * speed / fps
     rows = nearest(sol.t, times)
-    moments, points = _moments(sol.system, sol.p[rows], sol, names=names, path=path, forces=forces)
-    ax = drawing_axes(ax, 3 if moments is None or _is_in_space(moments) else 2)
-    if moments is None:
-        return _film(ax, moved_in_space(ax, points), times, fps)
+    moments = _moments(sol.system, sol.p[rows], sol, names=names, path=path, forces=forces)
+    ax = drawing_axes(ax, 3 if isinstance(moments, np.ndarray) or _is_in_space(moments) else 2)
+    if isinstance(moments, np.ndarray):
+        return _film(ax, moved_in_space(ax, moments), times, fps)
     if _is_in_space(moments):
         extras = Extras(names, paths_of(sol, path), _arrows(sol, forces, rows), force_scale)
         return _film(ax, SpacePicture(ax, moments, extras, upside_down=is_upside_down(sol.system)).show, times, fps)
@@ -259,8 +261,8 @@ def is_upside_down(system: Any) -> bool:
     return float(getattr(system, "parameters", {}).get("gravity.z", 0.0)) > 0
 
 
-def paths_of(sol: Solution | None, points: Any) -> list[np.ndarray]:
-    """Positions (k, 2) or (k, 3) in m of points at all samples."""
+def paths_of(sol: Any, points: Any) -> list[np.ndarray]:
+    """Positions (k, 2) or (k, 3) in m of points at all samples of a solution or a trace."""
     several = points if isinstance(points, list | tuple) else [points]
     found = []
     for point in several:
@@ -291,23 +293,22 @@ def _film(ax: Axes, draw: Callable[[int], list[Any]], times: np.ndarray, fps: fl
     return FuncAnimation(ax.figure, show, frames=len(times), interval=1000 / fps, blit=False)
 
 
-def _moments(system: BaseSystem, positions: Any, sol: Solution | None,
-             **asked: Any) -> tuple[list[list[Shape]] | None, np.ndarray | None]:
-    """Shapes of each position; for a system in space without shapes, None and its points (k, n, 3)."""
+def _moments(system: BaseSystem, positions: Any, sol: Solution | None, **asked: Any) -> list[list[Shape]] | np.ndarray:
+    """Shapes of each position; for a system in space without shapes, its points (k, n, 3)."""
     if isinstance(system, BaseSystem):
         motion = () if sol is None else sol.p[_spread(sol, WHOLE)]
         known = system._sketches([_check.vector("p", p, system.nq) for p in positions], motion)
         if known is not None:
-            return known, None
+            return known
     for name, value in asked.items():
         if value is not False and not _is_nothing(value):
             raise WrongValue(f"{name} must be left out for {system.name}, which is drawn from its points: it needs a Mechanism",
                              "not-available")
     points = points_at(system, positions)
     if points.shape[2] == 3:
-        return None, points
+        return points
     motion = points if sol is None else points_at(system, sol.p[_spread(sol, GHOSTS)])
-    return shapes_of(points, motion), None
+    return shapes_of(points, motion)
 
 
 def moments_of(sol: Solution, positions: Any) -> list[list[Shape]]:
@@ -318,8 +319,8 @@ def moments_of(sol: Solution, positions: Any) -> list[list[Shape]]:
     ValueError
         If the system cannot be drawn.
     """
-    moments, points = _moments(sol.system, positions, sol)
-    return [_lines(each) for each in points] if moments is None else moments
+    moments = _moments(sol.system, positions, sol)
+    return list(map(_lines, moments)) if isinstance(moments, np.ndarray) else moments
 
 
 def _lines(points: np.ndarray) -> list[Shape]:

@@ -61,8 +61,10 @@ def mode(lin: Linearization, index: int = 0, ax: Axes | None = None, *, amplitud
     amplitude = _check.number("amplitude", amplitude, above=0)
     positions = [p for p in mode_positions(lin, int(index), amplitude, PHASES) if np.abs(p - lin.p).max() > STILL * amplitude]
     ax = still_picture(lin.system, [lin.p, *positions], ax)
-    for p in positions:
-        ax.plot(*lin.system.points(p).T, **{"color": _style.COLOURS[1], "alpha": 0.6, "linewidth": 1.0, "zorder": 20} | style)
+    look: dict[str, Any] = {"color": _style.COLOURS[1], "alpha": 0.6, "linewidth": 1.0, "zorder": 20} | style
+    for points in map(lin.system.points, positions):
+        if points is not None:
+            ax.plot(*points.T, **look)
     value = lin.eigenvalues[index]
     damping = lin.damping[index] if abs(lin.damping[index]) > EIGENVALUE_ROUNDING else 0.0
     pair = f"{lin.frequencies[index]:.4g} Hz, damping ratio {damping:.3g}"
@@ -115,7 +117,8 @@ def root_locus(lins: Sequence[Linearization], values: Any, ax: Axes | None = Non
     ax = _style.axes(ax)
     points = np.concatenate([each.eigenvalues for each in lins]) if lins else np.zeros(0)
     colours = np.repeat(values, [len(each.eigenvalues) for each in lins])
-    drawn = ax.scatter(points.real, points.imag, c=colours, **{"s": 14.0, "cmap": "viridis"} | style)
+    look: dict[str, Any] = {"s": 14.0, "cmap": "viridis"} | style
+    drawn = ax.scatter(points.real, points.imag, c=colours, **look)
     ax.axvline(0.0, color="0.4", linewidth=0.8)
     ax.set_xlabel("real part [1/s]")
     ax.set_ylabel("imaginary part [rad/s]")

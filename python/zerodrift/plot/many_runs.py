@@ -16,7 +16,7 @@ from . import style as _style
 
 QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
 AN_ENSEMBLE = "what zd.ensemble returns"
-CROSS = {"color": "#B22222", "markersize": 3, "markeredgewidth": 0.8}      # of runs that failed
+CROSS: dict[str, Any] = {"color": "#B22222", "markersize": 3, "markeredgewidth": 0.8}      # of runs that failed
 
 
 def bands(ens: Ensemble, name: Any, quantiles: Sequence[float] = QUANTILES, ax: Axes | None = None, **style: Any) -> Axes:
@@ -67,9 +67,9 @@ def bands(ens: Ensemble, name: Any, quantiles: Sequence[float] = QUANTILES, ax: 
     found = np.full((len(levels), len(ens.t)), np.nan)
     found[:, some] = np.nanquantile(values[:, some], levels, axis=0)
     ax = _style.axes(ax)
-    color = style.pop("color", None) or ax._get_lines.get_next_color()
+    color = style.pop("color", None) or ax._get_lines.get_next_color()        # type: ignore[attr-defined]
     pairs, has_line = len(levels) // 2, len(levels) % 2
-    labels = [f"{100 * levels[i]:.3g} ... {100 * levels[-1 - i]:.3g} %" for i in range(pairs)]
+    labels: list[str | None] = [f"{100 * levels[i]:.3g} ... {100 * levels[-1 - i]:.3g} %" for i in range(pairs)]
     if "label" in style:        # which stands for all of it
         labels = [None if has_line or i else style["label"] for i in range(pairs)]
     for i, label in enumerate(labels):
@@ -115,7 +115,7 @@ def against(ens: Ensemble, parameter: str, of: Any = None, ax: Axes | None = Non
     """
     values, label = _numbers(ens, of, at, style)
     x = _parameter(ens, parameter)
-    colors = {} if color_by is None else {"c": _parameter(ens, color_by), "cmap": "viridis"}
+    colors: dict[str, Any] = {} if color_by is None else {"c": _parameter(ens, color_by), "cmap": "viridis"}
     ax = _style.axes(ax)
     there = np.isfinite(values)
     colors |= {"c": colors["c"][there]} if colors else {"color": _style.COLOURS[0]}

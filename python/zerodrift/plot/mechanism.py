@@ -51,8 +51,8 @@ class Picture:
         self.ax = ax
         self._moments = [_beside_arrows(shapes, shown) for shapes in moments] if shown else moments
         self._drawn: dict[str, PathCollection] = {}
-        places = [_extent(shape) for shapes in self._moments for shape in shapes] or [np.zeros((1, 2))]
-        places = np.vstack([*places, *extras.paths])
+        covered = [_extent(shape) for shapes in self._moments for shape in shapes] or [np.zeros((1, 2))]
+        places = np.vstack([*covered, *extras.paths])
         extent, per_point = self._scale(places)
         points = self.size / per_point
         self._arrows = self._names = None
@@ -82,7 +82,8 @@ class Picture:
 
     def _limit(self, places: np.ndarray, extent: float) -> None:
         """Set limits that contain all points, and the marks of the first position."""
-        ends = [places, *(each.path.vertices for shape in self._moments[0] for each in GLYPHS[shape.kind].draw(shape, self.size))]
+        ends = [places, *(np.asarray(each.path.vertices) for shape in self._moments[0]
+                          for each in GLYPHS[shape.kind].draw(shape, self.size))]
         low, high = np.min([each.min(axis=0) for each in ends], axis=0), np.max([each.max(axis=0) for each in ends], axis=0)
         middle, half = (low + high) / 2, np.maximum((high - low) / 2, NARROW / 2 * extent) + MARGIN * self.size
         hold(self.ax, middle - half, middle + half)
@@ -114,7 +115,8 @@ class Picture:
         """Collection of matplotlib for all shapes of a kind."""
         if kind not in self._drawn:
             collection = PathCollection([], zorder=GLYPHS[kind].zorder, label=f"_{kind}", capstyle="round", joinstyle="round")
-            self._drawn[kind] = self.ax.add_collection(collection, autolim=False)
+            self.ax.add_collection(collection, autolim=False)
+            self._drawn[kind] = collection
         return self._drawn[kind]
 
     def _look(self, collection: PathCollection, marks: list[Mark]) -> None:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.text import Text
 from matplotlib.transforms import ScaledTranslation
-from mpl_toolkits.mplot3d import proj3d
+from mpl_toolkits.mplot3d import Axes3D, proj3d
 
 LINE = 1.35         # height of a line of text, in units of its font
 LETTER = 0.62       # width of a letter, in the same units
@@ -19,7 +20,7 @@ ABOVE = 1e4         # z-order of names in space: above surfaces, which matplotli
 def keep_apart(ax: Axes, texts: Sequence[Text]) -> None:
     """Shift overlapping texts by whole lines of the picture as seen; in space the shift stays when the view turns."""
     placed: list[tuple[float, float, float, float]] = []
-    projection = ax.get_proj() if ax.name == "3d" else None
+    projection = ax.get_proj() if isinstance(ax, Axes3D) else None
     if projection is None:
         ax.apply_aspect()
     boxes = [(text, _box(ax, text, projection)) for text in texts if text.get_visible()]
@@ -30,7 +31,7 @@ def keep_apart(ax: Axes, texts: Sequence[Text]) -> None:
         text.set_transform(ax.transData + ScaledTranslation(0, shift * height / ax.figure.dpi, ax.figure.dpi_scale_trans))
 
 
-def _box(ax: Axes, text: Text, projection: np.ndarray | None) -> tuple[float, float, float, float]:
+def _box(ax: Axes, text: Any, projection: np.ndarray | None) -> tuple[float, float, float, float]:
     """Lower left corner, width and height of a text before it is shifted, in pixels."""
     place = text.get_position() if projection is None else proj3d.proj_transform(*text.get_position_3d(), projection)[:2]
     x, y = ax.transData.transform(place)

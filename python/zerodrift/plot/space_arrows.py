@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
+from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
 from .annotations import KEY, LONGEST, SHORTEST, Arrow, round_number, with_prefix
@@ -17,7 +17,7 @@ from .names_apart import ABOVE
 class SpaceArrows:
     """Forces as arrows from their points of application, with names, to a common scale given in a line of text."""
 
-    def __init__(self, ax: Axes, arrows: Sequence[Arrow], extent: float, size: float, scale: float | None = None) -> None:
+    def __init__(self, ax: Axes3D, arrows: Sequence[Arrow], extent: float, size: float, scale: float | None = None) -> None:
         """`scale` in N/m; left out: the longest arrow is a part of the picture, whose size is the extent."""
         self._arrows, self._size = arrows, size
         self.largest = max(float(np.linalg.norm(each.vectors, axis=1).max()) for each in arrows)

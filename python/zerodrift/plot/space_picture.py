@@ -12,10 +12,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib import patheffects
-from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
 from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
+from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
 from ..systems.shapes import Shape
@@ -124,9 +124,11 @@ FAINTLY = 0.36      # and how opaque they are
 class SpacePicture:
     """Picture of shapes in 3D axes with limits that contain all positions; `show` draws one position."""
 
-    def __init__(self, ax: Axes, moments: Sequence[list[Shape]], extras: Extras = NOTHING, *, upside_down: bool = False) -> None:
+    def __init__(self, ax: Axes3D, moments: Sequence[list[Shape]], extras: Extras = NOTHING, *,
+                 upside_down: bool = False) -> None:
         """`upside_down`: z points down."""
-        self.ax, self._moments, self._drawn, paths = ax, moments, {}, extras.paths
+        self.ax, self._moments, paths = ax, moments, extras.paths
+        self._drawn: dict[str, list[Any]] = {}
         self._light = LIGHT * ((1, -1, -1) if upside_down else (1, 1, 1))
         places = np.vstack([*(_extent(shape) for shapes in moments for shape in shapes), *paths])
         extent = float(np.ptp(places, axis=0).max()) or 1.0
@@ -166,7 +168,7 @@ class SpacePicture:
         is_many = sum(map(len, of_kind.values())) > MAX_PIECES
         for kind, pieces in of_kind.items():
             groups = [pieces] if is_many or kind in DOTS else [[piece] for piece in pieces]
-            for artist, those in itertools.zip_longest(self._artists(kind, len(groups)), groups, fillvalue=[]):
+            for artist, those in itertools.zip_longest(self._artists(kind, len(groups)), groups, fillvalue=()):
                 self._move(kind, artist, those)
         for shape in self._moments[moment]:
             if text := self._texts.get(shape.name):
@@ -175,7 +177,7 @@ class SpacePicture:
         keep_apart(self.ax, [*self._texts.values(), *(artist for artist in arrows if isinstance(artist, Text))])
         return [*itertools.chain(*self._drawn.values()), *self._texts.values(), *arrows]
 
-    def _move(self, kind: str, artist: Any, those: list[np.ndarray]) -> None:
+    def _move(self, kind: str, artist: Any, those: Sequence[np.ndarray]) -> None:
         """Give an artist the lines or faces of one moment; without any it is hidden."""
         artist.set_visible(bool(those))
         if not those:

@@ -98,21 +98,23 @@ def stability_map(result: StabilityMap, axes: Sequence[Axes] | None = None) -> n
     ['nothing', 'Baumgarte', 'projection', 'projection, energy']
     """
     _check.instance("result", result, StabilityMap, "what zd.stability_map returns")
-    if axes is None:
+    given: Any = axes
+    if given is None:
         count = len(result.rows)
-        axes = plt.subplots(1, count, figsize=(2.7 * count + 1, 3.4), sharey=True, layout="constrained")[1]
-    axes = np.atleast_1d(axes)
-    if len(axes) != len(result.rows):
-        raise WrongValue(f"axes must be {len(result.rows)}, one for each way, not {len(axes)}", "shape")
-    for ax in axes:
+        given = plt.subplots(1, count, figsize=(2.7 * count + 1, 3.4), sharey=True, layout="constrained")[1]
+    several = np.atleast_1d(given)
+    if len(several) != len(result.rows):
+        raise WrongValue(f"axes must be {len(result.rows)}, one for each way, not {len(several)}", "shape")
+    for ax in several:
         _style.given_axes(ax, "each of axes")
-    scale = LogNorm(max(result.reference_error, 1e-12), 1, clip=True)
-    for ax, way in zip(axes, result.rows, strict=True):
-        drawn = _draw_cells(ax, result.steps, result.values, result.error(way), scale)
+    least = max(result.reference_error, 1e-12)
+    scale = LogNorm(least, 1, clip=True)
+    for ax, way in zip(several, result.rows, strict=True):
+        drawn = _draw_cells(ax, result.steps, result.values, np.maximum(result.error(way), least), scale)
         ax.set(title=way, xlabel="step [s]")
-    axes[0].set_ylabel(result.parameter)
-    axes[0].figure.colorbar(drawn, ax=list(axes), label="max |p - reference|")
-    return axes
+    several[0].set_ylabel(result.parameter)
+    several[0].figure.colorbar(drawn, ax=list(several), label="max |p - reference|")
+    return several
 
 
 def _draw_cells(ax: Axes, x: np.ndarray, y: np.ndarray, values: np.ndarray, scale: LogNorm) -> Any:
@@ -120,7 +122,7 @@ def _draw_cells(ax: Axes, x: np.ndarray, y: np.ndarray, values: np.ndarray, scal
     ax.set_xscale("log")
     ax.set_yscale("log" if (y > 0).all() else "linear")
     ax.set_facecolor("#E8E8E8")
-    drawn = np.ma.masked_invalid(np.maximum(values, scale.vmin))
+    drawn = np.ma.masked_invalid(values)
     cells = ax.pcolormesh(_style.edges(x, log=True), _style.edges(y, log=True), drawn, norm=scale, cmap="viridis_r")
     row, column = np.nonzero(np.isnan(values))
     ax.plot(x[column], y[row], "x", color="#B22222", markersize=3, markeredgewidth=0.8)

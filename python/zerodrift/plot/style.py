@@ -7,9 +7,9 @@ from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib import cycler
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.rcsetup import cycler
 
 from .. import _check
 from .._gateway import Variable
@@ -65,7 +65,7 @@ def legend_above(ax: Axes) -> None:
     """Legend at the top of the axes; where limits are automatic, they leave room for it, so that it covers no curve."""
     names = ax.get_legend_handles_labels()[1]
     size = plt.rcParams["font.size"]
-    width, height = ax.get_window_extent().size * 72 / ax.figure.dpi      # in points, as the size of the font
+    width, height = (each * 72 / ax.figure.dpi for each in ax.get_window_extent().size)      # in points, as the size of the font
     columns = max(1, min(len(names), int(width / (0.6 * size * max(map(len, names), default=0) + 4 * size))))
     ax.legend(frameon=False, loc="upper center", ncols=columns)
     if not ax.get_autoscaley_on():
@@ -74,7 +74,7 @@ def legend_above(ax: Axes) -> None:
     ax.autoscale_view(scalex=False)
     scale = ax.yaxis.get_transform()
     low, high = scale.transform(ax.get_ylim())
-    ax.set_ylim(top=scale.inverted().transform(low + (high - low) / (1 - share)), auto=None)
+    ax.set_ylim(top=float(scale.inverted().transform(low + (high - low) / (1 - share))), auto=None)
 
 
 def line(ax: Axes, t: np.ndarray, values: np.ndarray, log: bool, **style: Any) -> None:

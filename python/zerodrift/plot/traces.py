@@ -69,7 +69,7 @@ def trace(traced: Trace, names: Any, ax: Axes | None = None, *, degrees: bool = 
                              "wrong-measure")
         (line,) = ax.plot(_shown(traced.values, traced.unit, degrees), _shown(values, variable.unit, degrees),
                           **{"label": variable.name} | style)
-        dead = [point.before for point in traced.dead_points]
+        dead = np.array([point.before for point in traced.dead_points], dtype=int)
         ax.plot(_shown(np.array([point.value for point in traced.dead_points]), traced.unit, degrees),
                 _shown(values[dead], variable.unit, degrees), "o", color=line.get_color(), markerfacecolor="white")
         units.append(_unit(variable.unit, degrees))

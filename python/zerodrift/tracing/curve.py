@@ -254,7 +254,7 @@ def touches(dead: float, value: float) -> bool:
 
 
 def _angle(first: np.ndarray, second: np.ndarray) -> float:
-    return float(2 * np.arcsin(min(1.0, np.linalg.norm(second - first) / 2)))
+    return float(2 * np.arcsin(min(1.0, float(np.linalg.norm(second - first)) / 2)))
 
 
 def _arc(first: Knot, last: Knot) -> float:

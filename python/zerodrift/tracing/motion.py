@@ -131,7 +131,7 @@ class Motion:
 
     def _independent(self, rows: np.ndarray, count: int, held: list[str]) -> list[int]:
         """Indices of independent constraints; an error if these do not leave one degree of freedom."""
-        basis, found = np.zeros((0, rows.shape[1])), []
+        basis, found = np.zeros((0, rows.shape[1])), list[int]()
         for i, row in enumerate(rows):
             left = row - basis.T @ (basis @ row)
             left -= basis.T @ (basis @ left)

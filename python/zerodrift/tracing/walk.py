@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import WrongValue
+from ..errors import CorrectionFailed, WrongValue
 from .curve import Curve, Knot, Segment, touches
 from .motion import Motion
 
@@ -99,6 +99,9 @@ def _first(motion: Motion, values: np.ndarray) -> Knot:
         return first.first
     x, _ = motion.curve.positions([first], values[:1])
     knot = motion.curve.knot(x[0], first.last.x - first.first.x)
+    if knot is None:
+        raise CorrectionFailed(f"the positions cannot be followed from {values[0]:.10g}: the constraints do not determine them "
+                               "there")
     differences = np.diff(values)[np.diff(values) != 0]
     return knot if not differences.size or differences[0] > 0 else knot.reversed()
 
