@@ -84,6 +84,12 @@ def test_a_compiler_that_fails_leaves_the_tables(monkeypatch, cache_folder):  # 
         zd.simulate(four_bar().system(compiled=True), **RUN)
 
 
+def test_a_run_of_an_ensemble_has_the_same_bits_alone():
+    ens = zd.ensemble(four_bar(), parameters={"crank.mass": [1.0, 2.0]}, outputs=["crank.angle"], **RUN | {"save_every": 100})
+    assert not ens[1].system.compiled
+    assert ens[1]["crank.angle"].tobytes() == ens["crank.angle"][1].tobytes()
+
+
 def test_compiled_must_be_a_flag():
     with pytest.raises(TypeError, match="compiled must be None, True or False"):
         four_bar().system(compiled=1)

@@ -313,10 +313,12 @@ class MechanismSystem(Reported):
         closed_form = self._closed_form if self._is_written_out else None
         return MechanismSystem(self._drawing, self.layout, self._changed | numbers, self._compiled, closed_form)
 
-    def _driven_from(self, places: list[float]) -> MechanismSystem:
-        """The same system with these initial positions of its motors of constant speed, as assembled or nearly."""
+    def _by_tables(self, places: list[float]) -> MechanismSystem:
+        """The same system, with these initial positions of its motors of constant speed, which long runs do not compile."""
         other = self._with({})
-        other._start.drives = dict(zip(other._start.drives_by_name, places, strict=True))
+        other._compiled = bool(self._compiled)
+        if places:
+            other._start.drives = dict(zip(other._start.drives_by_name, places, strict=True))
         return other
 
     def _definition(self) -> tuple[Any, ...]:
