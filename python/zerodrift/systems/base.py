@@ -309,8 +309,8 @@ class Makes:
 
     name: str
 
-    def system(self) -> BaseSystem:
-        """The system of this description."""
+    def system(self, coordinates: str | None = None) -> BaseSystem:
+        """The system of this description, in coordinates of one kind or in those that suit it."""
         raise NotImplementedError
 
 
