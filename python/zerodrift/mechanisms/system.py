@@ -348,7 +348,7 @@ class MechanismSystem(Reported):
         poses, _ = self._core.poses(_check.vector("p", p, self.nq))
         return (space_outline if self._drawing.dimension == 3 else outline)(self._drawing, self._numbers, poses)
 
-    def _sketches(self, positions: Sequence[np.ndarray], motion: Sequence[np.ndarray] = ()) -> list[list[Shape]] | None:
+    def _sketches(self, positions: Sequence[np.ndarray], motion: Sequence[np.ndarray] = ()) -> list[list[Shape]]:
         if self._drawing.dimension == 3:
             poses = [self._first_core.poses(np.ascontiguousarray(p))[0] for p in positions]
             return space_sketches(self._drawing, self._numbers, poses)

@@ -20,6 +20,7 @@ from .. import plot, systems
 from ..runs.open.diagnosis import unwarned
 from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
+from ..runs.states.instant import Instant
 from ..runs.states.operations import project
 
 PENDULUM = systems.pendulum(length=1.0, mass=1.0, gravity=9.81, angle=1.5, rate=0.0)
@@ -98,7 +99,7 @@ def _of_angle() -> np.ndarray:
     def rates(y: np.ndarray) -> np.ndarray:
         return np.array([y[1], -9.81 * np.sin(y[0])])
 
-    x, z = PENDULUM.p0
+    x, z = Instant(PENDULUM).p
     states = [np.array([np.arctan2(x, -z), 0.0])]
     for _ in range(round(SPAN / STEP)):
         states.append(states[-1] + STEP * rates(states[-1]))

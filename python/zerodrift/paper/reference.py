@@ -80,7 +80,7 @@ class CrankEquation:
         w2, w3 = self.gravity * self.m2 * self.l2 / 2, self.gravity * self.m3 * self.l3 / 2
         return w1 * sin(a) + w2 * sin(b) - w3 * sin(c), w1 * cos(a) + w2 * b1 * cos(b) - w3 * c1 * cos(c)
 
-    def rates(self, t: float, y: Sequence[float]) -> tuple[float, float]:
+    def rates(self, t: float, y: np.ndarray) -> tuple[float, float]:
         """The equation of motion in first order, for y = (alpha_1, alpha_1')."""
         inertia, half = self.inertia(y[0])
         return y[1], -(half * y[1] ** 2 + self.potential(y[0])[1]) / inertia

@@ -290,7 +290,8 @@ def _film(ax: Axes, draw: Callable[[int], list[Any]], times: np.ndarray, fps: fl
         title.set_text(f"t = {times[frame]:.2f} s")
         return [*draw(frame), title]
 
-    return FuncAnimation(ax.figure, show, frames=len(times), interval=1000 / fps, blit=False)
+    frames = len(times)
+    return FuncAnimation(ax.figure, show, frames=frames, interval=1000 / fps, blit=False)      # type: ignore[arg-type]
 
 
 def _moments(system: BaseSystem, positions: Any, sol: Solution | None, **asked: Any) -> list[list[Shape]] | np.ndarray:

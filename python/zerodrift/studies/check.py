@@ -215,7 +215,7 @@ def _complement(state: _State) -> Iterator[tuple[str, str]]:
     terms = state.terms
     if terms.D is None:
         return
-    yield "complement", _disagreement(terms.C @ terms.D, np.zeros((state.system.m, terms.D.shape[1])), "C D is not zero")
+    yield "complement", _disagreement(terms.C @ terms.D, np.zeros((state.system.m, len(terms.D.T))), "C D is not zero")
     yield "gamma", _disagreement(terms.C @ terms.gamma, terms.xi, "C gamma is not xi")
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..._core import ffi, lib
 from ..base import doubles, error_of
-from .plane import PlaneCore
+from .core import MechanismCore
 
 
 class Component(NamedTuple):
@@ -24,14 +24,14 @@ class Geometry:
 
     Parameters
     ----------
-    core : PlaneCore
+    core : MechanismCore
         In coordinates whose rates are the velocities.
     rows : sequence of int
         The rows of Phi that count.
     components : sequence of Component
     """
 
-    def __init__(self, core: PlaneCore, rows: Sequence[int], components: Sequence[Component]) -> None:
+    def __init__(self, core: MechanismCore, rows: Sequence[int], components: Sequence[Component]) -> None:
         self._core, self._rows, self._components = core.for_run(), np.array(rows, dtype=int), tuple(components)
         self.n, self._rest = core.nv, np.zeros(core.nv)
         self._Phi, self._C = np.zeros(core.mh), np.zeros(core.stored("C"))
