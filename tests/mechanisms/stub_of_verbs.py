@@ -15,9 +15,13 @@ HEAD = '''"""Methods of `Mechanism` made from the core's tables; written by test
 from typing import Any
 
 from ..elements.bodies import Body, Point
+from ..elements.joints import Joint
 from ..elements.space_joints import SpaceJoint
+from ..elements.table_forces import TableForce
 from .registry import Elements
 
+PLANE: dict[str, type[Joint]]
+FORCES: dict[str, type[TableForce]]
 Side = Body | Point | str
 
 class TableVerbs(Elements):

@@ -357,6 +357,26 @@ def test_what_a_controller_raises_says_when_and_leaves_the_run():
     assert any("every 0.01 s" in note and "t = 0.05" in note for note in caught.value.__notes__)
 
 
+def test_the_error_of_a_user_function_is_raised_once():
+    """A later one is not hidden by it."""
+    raised = []
+
+    def pull(t):
+        if t > 0.5 and not raised:
+            raised.append(t)
+            raise RuntimeError("no signal")
+        return float("nan") if t > 0.75 else 1.0
+
+    m = zd.Mechanism("slide")
+    slide = m.prismatic("slide", m.ground, m.body("block", mass=1.0, inertia=0.1), axis=(1, 0))
+    m.motor("drive", slide, force=pull)
+    run = dyadic(m.system())
+    with pytest.raises(RuntimeError, match="no signal"):
+        run.step(40)
+    with refused("not-finite", "force of motor 'drive'"):
+        run.step(40)
+
+
 @pytest.mark.parametrize("move", [lambda run: run.step(), lambda run: run.advance_to(5.0), lambda run: run.reset(),
                                   lambda run: run.restore(run.save()), lambda run: run.close(), lambda run: run.__exit__()])
 def test_a_controller_must_not_move_the_run_that_calls_it(move):

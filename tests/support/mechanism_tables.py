@@ -29,9 +29,9 @@ class Tabled(BaseSystem):
     def __init__(self, tables, p0=None, v0=None, law=None, **options):
         self._core = core = PlaneCore(tables, law, **options)
         self.name, self.parameters, self.p0, self.v0 = "mechanism", {}, p0, v0
-        self.coordinates = tuple(Variable(f"{kind}{body}", UNITS[kind]) for body, kind in core.coordinates)
+        self.coordinates = tuple(Variable(f"{kind}{body}", UNITS[kind]) for body, kind in core.motions)
         self.velocities = tuple(Variable(f"{name}_dot", f"{unit}/s") for name, unit in self.coordinates)
-        self.constraints = tuple(Variable(f"{row.owner}{row.index}.{row.component}", "") for row in core.rows)
+        self.constraints = tuple(Variable(f"{row.owner}{row.number}.{row.component}", "") for row in core.rows)
 
     def measured(self, name, t, p, v, vdot=None, multipliers=None):
         """A measure at one state."""

@@ -161,7 +161,7 @@ def statuses() -> list[Status]:
     rows: list[Status] = []
     while c := lib.zd_status_at(len(rows)):
         error = OF_PYTHON.get(text(c.error), text(c.error)) or "ZerodriftError"
-        code = errors.OF_STATUS.get(text(c.symbol)) or getattr(getattr(errors, error, None), "code", "")
+        code = errors.OF_STATUS.get(text(c.symbol), "") or getattr(getattr(errors, error, None), "code", "")
         rows.append(Status(c.status, error, text(c.sentence), code))
     return [row for row in rows if row.status < 0]
 
@@ -211,7 +211,8 @@ def card_of(c: Any) -> Card:
 
 def parameter_of(c: Any) -> Parameter:
     """A `zd_parameter`."""
-    initial, words, meaning = tuple(c.initial[0:c.size]) if c.initial else None, (), text(c.text)
+    initial, meaning = tuple(c.initial[0:c.size]) if c.initial else None, text(c.text)
+    words: tuple[str, ...] = ()
     if c.rule == lib.ZD_CHOICE:
         listed, _, meaning = meaning.partition(":")
         words = tuple(listed.split())
@@ -237,7 +238,7 @@ def required(correction: str) -> int:
 
 def error_of(status: int, message: str) -> Exception:
     """Exception of a failed status, with its code."""
-    error = ERRORS.get(status, errors.ZerodriftError)(message)
+    error: Any = ERRORS.get(status, errors.ZerodriftError)(message)
     if status in CODES:
         error.code = CODES[status]
     return error

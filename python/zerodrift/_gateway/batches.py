@@ -42,14 +42,14 @@ class Assembly(NamedTuple):
 class Happened(NamedTuple):
     """Times and states of the events of k runs: the first occurrences of each event, up to `room`."""
 
-    count: np.ndarray       # (k, events): number of occurrences
+    counts: np.ndarray      # (k, events): number of occurrences
     t: np.ndarray           # (k, events, room)
     p: np.ndarray | None    # (k, events, room, nq); None: not wanted
     v: np.ndarray | None    # (k, events, room, nv)
 
     def of(self, run: int) -> tuple[tuple[np.ndarray, ...], ...]:
         """Occurrences in one run: for each event t (n,), and p (n, nq) and v (n, nv) if requested."""
-        return tuple(tuple(np.array(where[run, event, :count]) for event, count in enumerate(self.count[run].tolist()))
+        return tuple(tuple(np.array(where[run, event, :count]) for event, count in enumerate(self.counts[run].tolist()))
                      for where in (self.t, self.p, self.v) if where is not None)
 
 
@@ -109,7 +109,7 @@ def run_batch(tables: Any, settings: Any, k: int, capacity: int, wanted: tuple[s
         **{name: ffi.from_buffer("int[]" if array.dtype == np.intc else "double[]", array) for name, array in columns.items()},
         **{name: ffi.from_buffer(TYPES[name], array) for name, array in of_runs.items()}}
     if happened is not None:
-        members |= {"events_capacity": room, "found": ffi.from_buffer("int64_t[]", happened.count),
+        members |= {"events_capacity": room, "found": ffi.from_buffer("int64_t[]", happened.counts),
                     **{f"{name}_events": ffi.from_buffer("double[]", array) for name in ("t", "p", "v")
                        if (array := getattr(happened, name)) is not None}}
     if p0 is not None:

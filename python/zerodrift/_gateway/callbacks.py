@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -24,7 +24,9 @@ class Evaluator:
     """
 
     def __init__(self, core: PythonCore) -> None:
-        self.error, self.refusal, self._write, terms = None, None, core.write, []
+        self.error: BaseException | None = None
+        self.refusal: Exception | None = None
+        self._write, terms = core.write, []
         p, v = ffi.new("double[]", core.nq), ffi.new("double[]", core.nv)
         self._p, self._v = ffi.buffer(p), ffi.buffer(v)
         self._arrays = {"p": _read_only(self._p), "v": _read_only(self._v)}
@@ -70,17 +72,17 @@ def _keep_error(kind: Any, error: BaseException, traceback: Any) -> None:
 
 
 @ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep_error)
-def zd_write_in_python(owner, want, t, moved):
-    return ffi.from_handle(owner).write(want, t, moved)
+def zd_write_in_python(owner: Any, *arguments: Any) -> int:
+    return ffi.from_handle(owner).write(*arguments)
 
 
 @ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep_error)
-def zd_refuse_in_python(owner, term, t):
-    return ffi.from_handle(owner).refuse(term, t)
+def zd_refuse_in_python(owner: Any, *arguments: Any) -> int:
+    return ffi.from_handle(owner).refuse(*arguments)
 
 
 @ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep_error)
-def zd_interrupted_in_python(owner):
+def zd_interrupted_in_python(owner: Any) -> int:
     """Nothing: Python raises KeyboardInterrupt here after Ctrl-C."""
     return 0
 
@@ -94,9 +96,10 @@ class Watcher:
     """
 
     def __init__(self, core: CoreSystem, events: Sequence[Any], of: CoreSystem | None = None, *, is_own: bool = False) -> None:
-        self.events, self._error = events, None
+        self.events = events
+        self._error: BaseException | None = None
         is_measured = any(event.known and event.known.is_measured for event in events)
-        self._of = None if not is_measured or of is core else of if is_own else of.for_run()
+        self._of = None if of is None or not is_measured or of is core else of if is_own else of.for_run()
         self.found: tuple[list[tuple[float, np.ndarray, np.ndarray]], ...] = tuple([] for _ in events)
         self._shapes = (core.nq,), (core.nv,)
         self._kept = (ffi.new_handle(self), ffi.new("int[]", [event.direction for event in events]),
@@ -113,7 +116,7 @@ class Watcher:
         return self._error or (self._of.error if self._of else None)
 
     @error.setter
-    def error(self, error: BaseException) -> None:
+    def error(self, error: BaseException | None) -> None:
         self._error = error
 
     def value(self, event: int, t: float, p: Any, v: Any, x: Any) -> float:
@@ -123,22 +126,25 @@ class Watcher:
 
     def state(self, p: Any, v: Any) -> tuple[np.ndarray, np.ndarray]:
         """Copies of the core's p and v, which the event may store."""
-        return tuple(np.array(ffi.unpack(pointer, *shape)) for pointer, shape in zip((p, v), self._shapes, strict=True))
+        (nq,), (nv,) = self._shapes
+        return np.array(ffi.unpack(p, nq)), np.array(ffi.unpack(v, nv))
 
     def arrays(self, event: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Times and states of the occurrences of an event: t (k,), p (k, nq), v (k, nv)."""
         columns = tuple(zip(*self.found[event], strict=True)) or ((), (), ())
-        return tuple(np.array(column).reshape(-1, *shape) for column, shape in zip(columns, ((), *self._shapes), strict=True))
+        t, p, v = (np.array(column).reshape(-1, *shape) for column, shape in zip(columns, ((), *self._shapes), strict=True))
+        return t, p, v
 
 
 @ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep_error)
-def zd_event_in_python(owner, event, t, p, v, x, value):
-    value[0] = ffi.from_handle(owner).value(event, t, p, v, x)
+def zd_event_in_python(owner: Any, event: int, *of: Any) -> int:
+    *arguments, value = of
+    value[0] = ffi.from_handle(owner).value(event, *arguments)
     return DONE
 
 
 @ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep_error)
-def zd_found_in_python(owner, event, t, p, v):
+def zd_found_in_python(owner: Any, event: int, t: float, p: Any, v: Any) -> int:
     watcher = ffi.from_handle(owner)
     watcher.found[event].append((t, *watcher.state(p, v)))
     return DONE
@@ -157,7 +163,7 @@ class PythonCore(CoreSystem):
 
     calls_python = True
 
-    def __init__(self, sizes: tuple[int, int, int, int], names: Iterable[str], write: Callable[..., None],
+    def __init__(self, sizes: tuple[int, int, int, int], names: Iterable[str], write: Any,
                  variables: Iterable[Variable], *, timeless: bool = False, quaternions: Sequence[int] = (),
                  packing: Packing | None = None) -> None:
         system = ffi.new("zd_system *")
@@ -169,23 +175,24 @@ class PythonCore(CoreSystem):
         system.lengths = self._lengths = lengths(variables)
         self._declared = set_quaternions(system, quaternions), declare(system, packing)
         super().__init__(system, None)
-        self.write, self.evaluator = write, None
+        self.write = write
+        self.evaluator: Evaluator | None = None
 
     def for_run(self) -> PythonCore:
         """Copy of the system with an evaluator of its own, so that runs do not share memory."""
         mine = copy.copy(self)
         mine.c = ffi.new("zd_system *", self.c[0])
-        mine.evaluator = Evaluator(mine)
-        mine._data = ffi.new_handle(mine.evaluator)
-        mine.evaluator.c.evaluator, mine.c.data = mine._data, mine.evaluator.c
+        evaluator = mine.evaluator = Evaluator(mine)
+        mine._data = ffi.new_handle(evaluator)
+        evaluator.c.evaluator, mine.c.data = mine._data, evaluator.c
         return mine
 
     @property
     def error(self) -> BaseException | None:
         """Exception raised by a callable, or else that for the last term that was not finite; None if there is neither."""
-        return self.evaluator and (self.evaluator.error or self.evaluator.refusal)
+        return self.evaluator.error or self.evaluator.refusal if self.evaluator else None
 
     @property
     def refusal(self) -> BaseException | None:
         """Exception for the last term that was not finite, which shorter steps may have avoided since."""
-        return self.evaluator and self.evaluator.refusal
+        return self.evaluator.refusal if self.evaluator else None

@@ -15,7 +15,7 @@ class Reading(NamedTuple):
     """Quantity that an event reads: a number of the motion, or a constant."""
 
     what: int                   # one of the above
-    index: int = 0              # of p, of v, or of a measure
+    entry: int = 0              # of p, of v, or of a measure
     component: int = 0          # of the measure
     number: float = 0.0         # a NUMBER's
 

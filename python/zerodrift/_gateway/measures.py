@@ -40,8 +40,11 @@ class Measuring:
     nq: int
     nv: int
     m: int
-    functions: int
-    error: BaseException | None
+    functions: Any      # these, as of `CoreSystem`
+    read_given: Any
+    for_run: Any
+    initial_inputs: Any
+    error: Any
 
     @functools.cached_property
     def measures(self) -> tuple[Any, ...]:
@@ -49,18 +52,6 @@ class Measuring:
         all_of = self.c.measures
         rows = [all_of.measure[i] for i in range(all_of.count)] if all_of else []
         return tuple(Named(text(row.name), text(row.unit), row.size) for row in rows)
-
-    def for_run(self) -> Any:
-        """The system for one run."""
-        raise NotImplementedError
-
-    def read_given(self, *state: np.ndarray, acting: Acting | None, is_own: bool) -> np.ndarray:
-        """Values of user functions that read reactions."""
-        raise NotImplementedError
-
-    def initial_inputs(self) -> Any:
-        """Inputs of the system with their initial values."""
-        raise NotImplementedError
 
     def measure_size(self, index: int) -> int:
         """Number of components of a measure."""

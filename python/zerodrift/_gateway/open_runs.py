@@ -111,12 +111,11 @@ class OpenRun(Run):
 
     def forget_errors(self) -> None:
         """Clear stored exceptions of user functions once they have been raised, so that the run may continue."""
-        for owner in (self._core, self._watcher, self._outputs):
-            for each in (owner, getattr(owner, "evaluator", None), getattr(owner, "_owner", None), getattr(owner, "_of", None)):
-                if each is not None and vars(each).get("error") is not None:
-                    each.error = None
-        if self._watcher:
-            self._watcher.error = None
+        owners = [self._core, self._watcher, self._outputs]
+        for owner in (*owners, *(getattr(each, "_of", None) for each in owners)):
+            for each in (owner, getattr(owner, "evaluator", None), getattr(owner, "_owner", None)):
+                for name in {"error", "_error", "refusal"} & {*getattr(each, "__dict__", ())}:
+                    setattr(each, name, None)
 
 
 class ManyOpenRuns:
@@ -146,7 +145,7 @@ class ManyOpenRuns:
         self.status, self.t = np.zeros(count, dtype=np.intc), np.empty(count)
         self.p, self.v = np.empty((count, nq)), np.empty((count, nv))
         self._pointers = ffi.new("zd_run *[]", [run.c for run in runs])
-        self._ready, self._measured = list(ready), []
+        self._ready, self._measured = list(ready), list[Any]()
         self.c = ffi.new("zd_open_runs *", {
             "runs": count, "run": self._pointers, "status": ffi.from_buffer("int[]", self.status, require_writable=True),
             "t": doubles(self.t, count, writable=True), "p": doubles(self.p, self.p.size, writable=True),

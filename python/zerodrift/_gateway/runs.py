@@ -88,7 +88,8 @@ def count_steps(t0: float, t1: float, step: float) -> int:
 
 
 NAMES_AND_KINDS = {name: field.type.cname for name, field in ffi.typeof("zd_statistics").fields}
-Statistics = collections.namedtuple("Statistics", NAMES_AND_KINDS)
+_made: Any = collections.namedtuple
+Statistics = _made("Statistics", NAMES_AND_KINDS)
 _unpacked = struct.Struct("".join({"int64_t": "q", "double": "d"}[kind] for kind in NAMES_AND_KINDS.values())).unpack
 
 

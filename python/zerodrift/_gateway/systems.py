@@ -44,7 +44,7 @@ class ConstraintNames:
 
 
 @ffi.def_extern()
-def zd_name_row_in_python(names, row, to, size):
+def zd_name_row_in_python(names: Any, row: int, to: Any, size: int) -> None:
     name = ffi.from_handle(names).of(row).encode()[: size - 1].decode(errors="ignore").encode()
     ffi.memmove(to, name + b"\0", len(name) + 1)
 
@@ -117,18 +117,20 @@ class CoreSystem(Measuring):
         self.packing = Packing.of(system.structure)
         self.quaternions = tuple(system.quaternion[i] for i in range(system.quaternions))
 
-    calls_python = False                    # True if the core calls functions written in Python
-    error: BaseException | None = None      # what a system written in Python raised
+    calls_python: Any = False               # True if the core calls functions written in Python
+    error: Any = None                       # exception that a system written in Python raised
     row_names: ConstraintNames | None = None
+    keep: Any = None                        # that its functions live in
     without_lanes: CoreSystem | None = None # system that this one has SIMD lanes besides
     given_jacobian = False                  # whether its C and Phi_t were written down beside Phi, and may be wrong
 
     def names_of_constraints(self, system: Any) -> None:
         """Let the core's messages use the constraint names of the given system."""
-        if self.row_names is None:
+        names = self.row_names
+        if names is None:
             names = self.__dict__.setdefault("row_names", ConstraintNames())       # one, whichever thread comes first
             self.c.name_constraint, self.c.names = lib.zd_name_row_in_python, names.handle
-        self.row_names.take_from(system)
+        names.take_from(system)
 
     def structure_work(self, p: np.ndarray) -> Any:
         """Operation count and accuracy of eliminating C W C^T of a declared structure at p: `zd_structure_work` of the core.
@@ -203,8 +205,8 @@ class CoreSystem(Measuring):
             return np.zeros((self.nv, 0))
         k, shape = self.functions, (self.functions + 1, -1)
         u = np.vstack([np.eye(k), np.zeros((1, k))])
-        t, p, v = (np.ascontiguousarray(np.broadcast_to(each, (k + 1, np.size(each)))) for each in (t, p, v))
-        f = self._evaluated(("f",), t.ravel(), p, v, u)["f"].reshape(shape)
+        times, p, v = (np.ascontiguousarray(np.broadcast_to(each, (k + 1, np.size(each)))) for each in (t, p, v))
+        f = self._evaluated(("f",), times.ravel(), p, v, u)["f"].reshape(shape)
         return (f[:-1] - f[-1]).T
 
     def read_given(self, t: np.ndarray, p: np.ndarray, v: np.ndarray, vdot: np.ndarray, lam: np.ndarray, *,
@@ -258,8 +260,7 @@ class CoreSystem(Measuring):
 
     def stored(self, name: str) -> tuple[int, ...]:
         """Shape of the stored entries of a term."""
-        packed = self.packing and name in PACKED
-        return (self.packing.size(name),) if packed else TERMS[name].shape(self.c)
+        return (self.packing.size(name),) if self.packing and name in PACKED else TERMS[name].shape(self.c)
 
     def evaluate(self, t: float, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
         """All terms of the system at (t, p, v), with dense matrices."""

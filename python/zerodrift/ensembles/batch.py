@@ -146,7 +146,7 @@ def _make(plan: Plan, batch: Batch, tables: NumberTables, first: int, last: int,
     while True:
         made = _gateway.run_batch(systems, batch.core_settings, last - first, batch.rows, tuple(dict.fromkeys(wanted)),
                                   batch.assembly, stop, outputs=batch.outputs, events=batch.events, room=room)
-        most = 0 if made.events is None else int(made.events.count.max(initial=0))
+        most = 0 if made.events is None else int(made.events.counts.max(initial=0))
         if most <= room:
             return made
         room = plan.remembered["events"] = most     # repeat with memory for all occurrences

@@ -169,9 +169,9 @@ def _kept(own: int, quantities: Sequence[Any], observed: Sequence[OutputSpec]) -
     """These measures, and the marker quantities of the elements, which are the first `own`, and of these measures."""
     kept, found = list(quantities[:own]), []
     for row in observed:
-        of_quantities = row.kind in ("values", "rates", "accelerations") and row.index >= own
-        found.append(row._replace(index=len(kept)) if of_quantities else row)
-        kept += quantities[row.index:row.index + row.size] if of_quantities else []
+        of_quantities = row.kind in ("values", "rates", "accelerations") and row.first >= own
+        found.append(row._replace(first=len(kept)) if of_quantities else row)
+        kept += quantities[row.first:row.first + row.size] if of_quantities else []
     return kept, found
 
 
@@ -228,7 +228,7 @@ def _target(name: str, tables: Any) -> tuple[str, int]:
     """Member that an input sets, a force or a speed, and its index in the tables."""
     owner, _, quantity = name.rpartition(".")
     if quantity in ("force", "torque", "value"):
-        values = (each.index for each in tables.observed if each.kind == "force value" and each.name.rpartition(".")[0] == owner)
+        values = (each.first for each in tables.observed if each.kind == "force value" and each.name.rpartition(".")[0] == owner)
         index = next(values, None)
         if index is not None and tables.forces[index].kind == "constant":
             return "force", index

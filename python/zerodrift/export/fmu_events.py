@@ -38,7 +38,7 @@ def chosen_events(given: Any, system: BaseSystem, version: str) -> list[Level]:
         if version == "2.0" and not each.terminal:
             raise WrongValue(f"{each.name} must be terminal in FMI 2.0, whose steps do not return early", "not-available")
         reading = each.known.readings[0]
-        measure = names[reading.index] if reading.what == known_events.MEASURE else ""
+        measure = names[reading.entry] if reading.what == known_events.MEASURE else ""
         found.append(Level(reading, measure, each.known.value, each.direction, bool(each.terminal)))
     return found
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check, _gateway
-from .._gateway import Variable
+from .._gateway import CoreSystem, Variable
 from .._gateway import is_length as is_length_of
 from .._gateway.base import row_named
 from .._gateway.compiled.precise import Precise
@@ -192,10 +192,10 @@ class MechanismSystem(Reported):
         library = None if embeds or not core.has_closed_form else self._closed_form[1].library_in_lanes(vector)
         return core if library is None else core.with_lanes(_gateway.address_of(library, CLOSED_FORM), library)
 
-    def _with_jacobian(self, core: MechanismCore, vector: str = "baseline") -> MechanismCore:
+    def _with_jacobian(self, core: CoreSystem, vector: str = "baseline") -> CoreSystem:
         return self._written.with_jacobian(vector) if self.compiled and core is self._core else core
 
-    def _with_series(self, core: MechanismCore, vector: str = "baseline") -> MechanismCore:
+    def _with_series(self, core: CoreSystem, vector: str = "baseline") -> CoreSystem:
         return self._written.with_series(vector) if self.compiled else core
 
     @property
@@ -360,7 +360,7 @@ class MechanismSystem(Reported):
         poses = [self._first_core.poses(np.ascontiguousarray(solution.p[row]))[0] for row in rows]
         if drawing.dimension == 3:
             inertias = SpaceInertias(drawing, numbers)
-            moments = [SpacePosed(drawing, numbers, inertias, pose) for pose in poses]
+            moments: Any = [SpacePosed(drawing, numbers, inertias, pose) for pose in poses]
         else:
             moments = at_moments(Parts(drawing, numbers), poses)
         return [(element.name, *acting(element, moments, np.asarray(solution[f"{element.name}.force"])[rows]))
@@ -370,7 +370,7 @@ class MechanismSystem(Reported):
 def _variables(tables: Tables, core: MechanismCore) -> list[tuple[Variable, Variable]]:
     """Names and units of coordinates and velocities."""
     found = []
-    for coordinate in core.coordinates:
+    for coordinate in core.motions:
         body = tables.parts[coordinate.body - 1]
         if coordinate.kind == "displacement":
             joint = tables.joints[tables.inboard[coordinate.body - 1]]

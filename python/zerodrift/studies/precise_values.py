@@ -176,12 +176,12 @@ def _reader(what: str, reading: Reading, system: BaseSystem) -> Value:
         case known_events.TIME:
             return lambda t, p, v: t
         case known_events.COORDINATE:
-            return lambda t, p, v: p[reading.index]
+            return lambda t, p, v: p[reading.entry]
         case known_events.VELOCITY:
-            return lambda t, p, v: v[reading.index]
+            return lambda t, p, v: v[reading.entry]
         case known_events.NUMBER:
             return lambda t, p, v: Decimal(reading.number)
-    name = system._measuring.measures[reading.index].name
+    name = system._measuring.measures[reading.entry].name
     program = system._program_of(name, reading.component)
     if program is None:
         raise WrongValue(f"{what} must be a measure of positions or velocities, which {name!r} is not")

@@ -132,9 +132,7 @@ class Definition:
         v = [graph.leaf("v", i) for i in range(nv)]
         moving = self.placed | dict(zip(self.speeds, v, strict=True))
 
-        def each(what: str, expressions: Sequence[Any] | None, known: Mapping[Any, Node]) -> list[Node] | None:
-            if expressions is None:
-                return None
+        def each(what: str, expressions: Sequence[Any], known: Mapping[Any, Node]) -> list[Node]:
             return [reader.read(f"{what} {i}" if len(expressions) > 1 else what, x, known) for i, x in enumerate(expressions)]
 
         A, pdot = None, v
@@ -147,7 +145,8 @@ class Definition:
             nq, nv, A,
             kinetic=None if e["kinetic"] is None else reader.read("kinetic", e["kinetic"], self._for_energy(reader, moving)),
             mass=None if e["mass"] is None else [each(f"mass, row {i}, entry", row, moving) for i, row in enumerate(e["mass"])],
-            bias=each("bias", e["bias"], moving), force=each("force", e["force"], moving),
+            bias=None if e["bias"] is None else each("bias", e["bias"], moving),
+            force=None if e["force"] is None else each("force", e["force"], moving),
             potential=None if e["potential"] is None else reader.read("potential", e["potential"], moving),
             holonomic=each("constraints", e["holonomic"], moving), nonholonomic=each("nonholonomic", e["nonholonomic"], moving))
         self._check_stages(given)
@@ -195,7 +194,7 @@ class Definition:
                 raise WrongValue(f"constraint {self.constraint_names[i]!r} depends on velocities: such belong to nonholonomic",
                                  "expression")
         if given.mass is not None:
-            if any(len(rows) != given.nv for rows in (given.mass, *given.mass)):
+            if {len(given.mass), *map(len, given.mass)} != {given.nv}:
                 raise WrongValue(f"mass must have shape {(given.nv, given.nv)}", "shape")
             if any(entry.stage >= MOVING for row in given.mass for entry in row):
                 raise WrongValue("mass must not depend on velocities", "expression")

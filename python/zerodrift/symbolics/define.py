@@ -143,7 +143,7 @@ def _with_inputs(parameters: Any, inputs: Sequence[Any]) -> Any:
 def _code(definition: Definition, say: Progress) -> Code:
     """Derived terms of the definition: from memory, from the cache, or derived now."""
     key = fingerprint(definition.expressions)
-    code = _derived.get(key)
+    code = _derived.get(key or "")
     if code is None and key is not None:
         kept = cache.read(key, dict)
         code = None if kept is None else Code.from_json(kept)

@@ -27,7 +27,8 @@ class _Perturbed:
     """Operations of a program, each leaf and each entry of a term multiplied by its factor."""
 
     def __init__(self, operations: list[list[Any]], first: dict[str, int]) -> None:
-        self.operations, self._first, self._at = [], first, {}
+        self.operations: list[list[Any]] = []
+        self._first, self._at = first, dict[int, Any]()
         for number, (code, *arguments) in enumerate(operations):
             self._at[number] = self._translated(code, arguments)
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check, _gateway
-from .._gateway import TERMS, Variable
+from .._gateway import TERMS, NativeCore, Variable
 from .._gateway.compiled.precise import Precise
 from .._gateway.inputs import Bound, Place
 from ..errors import NeedsCompiler, NoCompilerWarning, UnsuitedIntegrator, WrongValue
@@ -51,7 +51,8 @@ class Code:
 
     @classmethod
     def from_json(cls, content: dict[str, Any]) -> Code:
-        return cls(**{key: tuple(value) if isinstance(value, list) else value for key, value in content.items()})
+        fields: dict[str, Any] = {key: tuple(value) if isinstance(value, list) else value for key, value in content.items()}
+        return cls(**fields)
 
     def as_json(self) -> dict[str, Any]:
         return asdict(self)
@@ -95,11 +96,11 @@ class SymbolicSystem(BaseSystem):
             warnings.warn(f"there is no C compiler (looked for {compilers.looked_for()}): {self.name} is evaluated in Python, "
                           f"some hundred times slower", NoCompilerWarning, stacklevel=3)
         self._core = self._native() if self.compiled else self._in_python()
-        self._with_closed_form: dict[tuple[str, bool], _gateway.NativeCore] = {}     # by vector unit, and whether they embed
+        self._with_closed_form: dict[tuple[str, bool], NativeCore] = {}     # by vector unit, and whether they embed
 
-    def _native(self) -> _gateway.NativeCore:
+    def _native(self) -> NativeCore:
         code, address = self._code, _gateway.address_of(self._library, "zd_symbolic_evaluate")
-        return _gateway.NativeCore(code.sizes, code.provides, address, self._data(), (*self.coordinates, *self.velocities),
+        return NativeCore(code.sizes, code.provides, address, self._data(), (*self.coordinates, *self.velocities),
                                    scratch=code.scratch, keep=self._library, timeless=code.timeless, quaternions=self._places,
                                    packing=self._packing)
 
@@ -107,26 +108,27 @@ class SymbolicSystem(BaseSystem):
         """Data of the compiled function: the parameters, the constants computed from them, and one spare double."""
         data = np.zeros(len(self._values) + self._code.constants + 1)
         data[:len(self._values)] = self._values
-        self._library.zd_symbolic_constants(ctypes.c_void_p(data.ctypes.data))
+        if self._library is not None:
+            self._library.zd_symbolic_constants(ctypes.c_void_p(data.ctypes.data))
         data.flags.writeable = False
         return data
 
     def _closed_form_core(self, vector: str = "baseline", embeds: bool = False) -> _gateway.CoreSystem:
-        functions = self._functions(embeds)
+        functions, core = self._functions(embeds), self._core
         library = functions.library(vector) if self.compiled else None
-        if library is None:
-            return self._core
+        if library is None or not isinstance(core, NativeCore):
+            return core
         if (vector, embeds) not in self._with_closed_form:
             data = self._with_closed_form_data(library, functions)
             address = _gateway.address_of(library, CLOSED_FORM)
-            self._with_closed_form[vector, embeds] = self._core.with_closed_form(address, data, library)
+            self._with_closed_form[vector, embeds] = core.with_closed_form(address, data, library)
         return self._with_closed_form[vector, embeds]
 
     def _why_no_closed_form(self, embeds: bool = False, steps: float = 0.0) -> str:
         return self._functions(embeds).why_none if self.compiled else NO_COMPILER
 
     def _with_series(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
-        if not self.compiled:
+        if not isinstance(core, NativeCore):
             return core
         if self._series.why_none:
             raise UnsuitedIntegrator(f"{self.name} has no Taylor series: {self._series.why_none}")
@@ -142,16 +144,16 @@ class SymbolicSystem(BaseSystem):
 
     def _with_jacobian(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
         library = self._jacobian.library(vector) if self.compiled else None
-        if library is None:
+        if library is None or not isinstance(core, NativeCore):
             return core
         return core.with_jacobian(_gateway.address_of(library, JacobianFunctions.symbol), library)
 
     def _with_series_of_perturbed(self, core: _gateway.PerturbedCore, vector: str) -> _gateway.CoreSystem:
-        if not self._brings_series:
+        parameters, program = self._values, self._code.program
+        if not self._brings_series or isinstance(program, str):
             return core
-        parameters = self._values
         if self._perturbed is None:
-            program = rounding_factors.perturbed(self._code.program, core.shapes, len(parameters))
+            program = rounding_factors.perturbed(program, core.shapes, len(parameters))
             self._perturbed = SeriesFunctions(program, self._code.sizes, rounding_factors.NUMBERS)
         library = self._perturbed.library(vector)
         if library is None:
@@ -186,7 +188,7 @@ class SymbolicSystem(BaseSystem):
     def _names_of_inputs(self) -> list[str]:
         return list(self._inputs)
 
-    def _bound(self, core: _gateway.NativeCore, names: Sequence[str]) -> Bound:
+    def _bound(self, core: NativeCore, names: Sequence[str]) -> Bound:
         """The system of one run, with data of its own."""
         alone = core.without_lanes or core
         libraries = [self._library, next((functions.library(vector) for (vector, embeds), known in self._with_closed_form.items()
@@ -244,7 +246,8 @@ class SymbolicSystem(BaseSystem):
         other.parameters, other._values = self.parameters | changed, self._values.copy()
         for key, value in changed.items():
             other._values[self._code.parameters.index(key)] = _check.number(f"parameter {key!r}", value)
-        other._core = self._core.with_data(other._data()) if self.compiled else other._in_python()
+        other._core = (self._core.with_data(other._data()) if isinstance(self._core, NativeCore)
+                       else other._in_python())
         return other
 
     def starting(self, p0: Any = None, v0: Any = None) -> SymbolicSystem:

@@ -24,6 +24,9 @@ class Jet:
     def __init__(self, value: float, gradient: Any = 0.0, first: float = 0.0, second: float = 0.0) -> None:
         self.value, self.gradient, self.first, self.second = value, gradient, first, second
 
+    log: Callable[[], Jet]      # as other functions of one argument, below
+    exp: Callable[[], Jet]
+
     def _chain(self, value: float, slope: float, curvature: float) -> Jet:
         """phi(x) from phi, phi', phi'' at x.
 
@@ -132,8 +135,6 @@ class Jet:
 
     def __ne__(self, other: Any) -> bool:
         return self.value != value(other)
-
-    __hash__ = None
 
     def __repr__(self) -> str:
         return f"Jet({self.value}, {self.gradient}, {self.first}, {self.second})"

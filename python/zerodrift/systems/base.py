@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Mapping, Sequence
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
@@ -27,6 +27,9 @@ class Terms:
         *(f"{name} : ndarray {term.sizes}\n    {term.text[0].upper()}{term.text[1:]}." for name, term in _gateway.TERMS.items())])
 
     __slots__ = tuple(_gateway.TERMS)
+
+    if TYPE_CHECKING:
+        A = M = d = f = Phi = C = Phi_t = xi = V = power = D = gamma = np.empty(0)
 
     def __init__(self, **arrays: np.ndarray) -> None:
         for name in self.__slots__:
@@ -51,14 +54,6 @@ class BaseSystem(Defaults):
         Start of `zerodrift.simulate` if none is given; None: a start must be given.
     """
 
-    name: str
-    parameters: dict[str, Any]
-    coordinates: tuple[Variable, ...]
-    velocities: tuple[Variable, ...]
-    constraints: tuple[Variable, ...]
-    p0: np.ndarray | None
-    v0: np.ndarray | None
-    _core: _gateway.CoreSystem
     _has_own_energy = False     # True if the user writes the potential energy and the power, beside the forces
 
     nq = property(lambda self: self._core.nq, doc="Number of coordinates, the entries of p.")
@@ -174,11 +169,12 @@ class BaseSystem(Defaults):
         """
         if changes is not None and not isinstance(changes, Mapping):
             raise WrongType(f"changes must be a dict of values by the parameters' names, not {changes!r}")
-        for key in changes or ():
+        more = changes or {}
+        for key in more:
             if key in changed:
-                raise WrongType(f"parameter {key!r} is changed twice: to {changes[key]!r} and to {changed[key]!r}",
+                raise WrongType(f"parameter {key!r} is changed twice: to {more[key]!r} and to {changed[key]!r}",
                                 "duplicate-name")
-        changed = {**(changes or {}), **changed}
+        changed = {**more, **changed}
         for key in changed:
             _check.choice("parameter", key, self.parameters)
         return self._with(changed)
@@ -208,10 +204,6 @@ class BaseSystem(Defaults):
         except Exception:       # there is no start, or a user's own function fails there
             return least
         return f"{self.nv - rank}" + (f", redundant constraints at the start: {self.m - rank}" if rank < self.m else "")
-
-    def _closed_form_core(self, vector: str = "baseline", embeds: bool = False) -> _gateway.CoreSystem:
-        """The core's system with closed-form functions; those for independent velocities (`embeds`) are separate functions."""
-        return self._core
 
     def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int,
                        closed_form: tuple[str, bool] | None = None) -> NumberTables | None:
@@ -244,8 +236,9 @@ class BaseSystem(Defaults):
 
     def _reading(self, name: str, what: str, *, is_dynamic: bool = False) -> Reading:
         """Index of a scalar measure, of reactions and accelerations only if `is_dynamic`, or of a coordinate or velocity."""
-        place, core = self._watching.find(name), self._measuring
+        place = self._watching.find(name)
         if place is not None:
+            core = self._watching.core
             if core.measure_depends(place.number) == "accelerations" and not is_dynamic:
                 raise WrongValue(f"{what} must be a scalar measure of positions or velocities, and {name!r} depends on "
                                  "accelerations", "wrong-measure")

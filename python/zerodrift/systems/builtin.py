@@ -149,7 +149,7 @@ def _factory(kind: str) -> Any:
     make.__module__, make.__name__, make.__qualname__ = __package__, kind, kind
     make.__doc__ = _documentation(row)
     defaults = [_as_given(p, _as_numbers(p, None)) for p in row.parameters]
-    make.__signature__ = inspect.Signature(
+    vars(make)["__signature__"] = inspect.Signature(
         [inspect.Parameter(p.name, inspect.Parameter.KEYWORD_ONLY, default=value)
          for p, value in zip(row.parameters, defaults, strict=True)])
     return make

@@ -122,7 +122,7 @@ class System(BaseSystem):
         places = quaternion_places(quaternions, names, kinematics is not None)
         sizes = _sizes(functions, _anywhere(len(names), places) if self.p0 is None else self.p0)
         packing = checked(structure, sizes, kinematics is not None)
-        writer = Writer(functions, *sizes)
+        writer: Writer | PackedWriter = Writer(functions, *sizes)
         if packing:
             writer = PackedWriter(writer, packing)
         rates = [f"{n}_dot" for n in names] if kinematics is None else [f"v{i}" for i in range(sizes[1])]

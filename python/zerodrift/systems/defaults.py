@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any, NamedTuple
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from .. import _gateway
+from .._gateway import CoreSystem, Variable
 from .._gateway.compiled.precise import Precise
 from ..errors import WrongValue
 from .shapes import Shape
@@ -24,6 +26,29 @@ class WithInputs(NamedTuple):
 
 class Defaults:
     """Defaults: a system without advice, drawing, inputs, series and other coordinates."""
+
+    name: str
+
+    if TYPE_CHECKING:       # attributes, which mechanisms compute at first use
+
+        @cached_property
+        def parameters(self) -> dict[str, Any]: ...
+        @cached_property
+        def coordinates(self) -> tuple[Variable, ...]: ...
+        @cached_property
+        def velocities(self) -> tuple[Variable, ...]: ...
+        @cached_property
+        def constraints(self) -> tuple[Variable, ...]: ...
+        @cached_property
+        def p0(self) -> np.ndarray | None: ...
+        @cached_property
+        def v0(self) -> np.ndarray | None: ...
+        @cached_property
+        def _core(self) -> CoreSystem: ...
+
+    def _closed_form_core(self, vector: str = "baseline", embeds: bool = False) -> CoreSystem:
+        """The core's system with closed-form functions; those for independent velocities (`embeds`) are separate functions."""
+        return self._core
 
     def _why_no_closed_form(self, embeds: bool = False, steps: float = 0.0) -> str | None:
         """Known reason why the system has no closed-form functions; empty: it has some; None: systems of its kind have none.
@@ -96,11 +121,11 @@ class Defaults:
         """Names of the numbers in each array that may be an input as a whole, in its shape."""
         return {}
 
-    def _core_in_lanes(self, vector: str, embeds: bool = False) -> _gateway.CoreSystem:
+    def _core_in_lanes(self, vector: str, embeds: bool = False) -> CoreSystem:
         """The core's system with its closed-form functions, for SIMD lanes, too, where it has them."""
         return self._closed_form_core(vector, embeds)
 
-    def _with_series(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
+    def _with_series(self, core: CoreSystem, vector: str = "baseline") -> CoreSystem:
         """The core's system, with the Taylor series of its motion where it has one."""
         return core
 
@@ -128,11 +153,11 @@ class Defaults:
         """Coordinates and velocities that are given as doubles at the start, and from which all others follow."""
         return [], []
 
-    def _with_jacobian(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
+    def _with_jacobian(self, core: CoreSystem, vector: str = "baseline") -> CoreSystem:
         """The core's system, with the Jacobian of its motion where it has one."""
         return core
 
-    def _with_series_of_perturbed(self, core: _gateway.PerturbedCore, vector: str) -> _gateway.CoreSystem:
+    def _with_series_of_perturbed(self, core: _gateway.PerturbedCore, vector: str) -> CoreSystem:
         """The core's perturbed system, with the Taylor series of the perturbed motion."""
         return core
 

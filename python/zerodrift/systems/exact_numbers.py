@@ -18,7 +18,7 @@ def exact_numbers(name: str, parameters: Mapping[str, Any]) -> np.ndarray:
     given = {key: _exact(value) for key, value in parameters.items() if not isinstance(value, str) and value is not None}
     groups = list(given.values())
     if name == "four_bar":      # inertias of slender rods, m l^2 / 12, if none are given
-        rods = [m * length**2 / 12 for m, length in zip(given["masses"], given["lengths"][1:], strict=True)]
+        rods = tuple(m * length**2 / 12 for m, length in zip(given["masses"], given["lengths"][1:], strict=True))
         groups = [given["lengths"], given["masses"], given.get("inertias", rods), given["gravity"]]
     return _pairs([number for group in groups for number in group])
 
@@ -113,7 +113,7 @@ def _orthonormality(frames: Sequence[Sequence[Sequence[Entry]]], exact: Mapping[
     for frame in frames:
         entries = [[factor * exact.get(number, Fraction(1)) for number, factor in row] for row in frame]
         for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)):
-            residuals.append(sum(a * b for a, b in zip(entries[i], entries[j], strict=True)) - (i == j))
+            residuals.append(sum((a * b for a, b in zip(entries[i], entries[j], strict=True)), Fraction(-(i == j))))
             slopes.append(np.zeros(len(places)))
             for one, other in ((i, j), (j, i)):
                 for (number, factor), value in zip(frame[one], entries[other], strict=True):

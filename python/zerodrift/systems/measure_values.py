@@ -55,7 +55,7 @@ def view(name: Any, known: Mapping[str, tuple[int, int]]) -> Place | None:
     word, _, order = quantity.partition(".")
     angles = partial(angles_of, order=order) if word == "euler" and is_order(order) else None
     form = quaternions_of if quantity == "quaternion" else angles
-    rotation = form and find(f"{body}.rotation", known)
+    rotation = None if form is None else find(f"{body}.rotation", known)
     return rotation and rotation._replace(form=form)
 
 
@@ -70,9 +70,15 @@ class Watching:
     """Measures of a system by name, evaluated from solutions; `core` provides them, None if there are none."""
 
     def __init__(self, core: CoreSystem | None) -> None:
-        self.core, self._measures = core, core.measures if core else ()
+        self._core, self._measures = core, core.measures if core else ()
         self.known = {measure.name: (i, measure.size) for i, measure in enumerate(self._measures)}
         self._accelerations: weakref.WeakKeyDictionary[Any, tuple[np.ndarray, np.ndarray]] = weakref.WeakKeyDictionary()
+
+    @property
+    def core(self) -> CoreSystem:
+        """The core's system that provides the measures, where any is known."""
+        assert self._core
+        return self._core
 
     def find(self, name: Any) -> Place | None:
         """Index of a measure or of a component by its name, or None."""
@@ -102,7 +108,7 @@ class Watching:
         return Acting(list(filter(None, along)), efforts[:, [each is not None for each in along]])
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Watching, (self.core,)       # what is known of solutions is found again
+        return Watching, (self._core,)      # what is known of solutions is found again
 
     def values(self, name: str, solution: Any) -> np.ndarray | None:
         """A measure at all rows, as `Place.pick` shapes it; None: there is none of that name."""
@@ -114,10 +120,8 @@ class Watching:
     def _evaluate(self, number: int, solution: Any, wanted: str = "value") -> np.ndarray:
         values, is_dynamic = [], self.core.measure_depends(number) == "accelerations"
         for core, part in self._cores(solution, self._measures[number].name if is_dynamic else None):
-            states, is_own = _states(solution, part), core is not self.core
-            if is_dynamic:
-                states += self._accelerate(number, core, solution, part)
-            values.append(core.measure(number, *states, is_own=is_own, wanted=wanted, is_least=True))
+            more, is_own = self._accelerate(number, core, solution, part) if is_dynamic else (), core is not self.core
+            values.append(core.measure(number, *_states(solution, part), *more, is_own=is_own, wanted=wanted, is_least=True))
         return values[0] if len(values) == 1 else np.concatenate(values)
 
     def _accelerate(self, number: int, core: CoreSystem, solution: Any, part: slice) -> tuple[np.ndarray, np.ndarray]:
@@ -173,7 +177,7 @@ class Watching:
         found = self.find(name)
         if found is None:
             raise WrongName(f"nothing measured is called {name!r}; {_check.closest(name, self.known)}", "wrong-name")
-        same = np.ones(self._measures[found.number].size, dtype=bool)
+        same: Any = np.ones(self._measures[found.number].size, dtype=bool)
         if self.core.measure_depends(found.number) == "accelerations" and self.core.m:
             changes = self._evaluate(found.number, solution, "redundant")
             if same.size > 1 and body not in (None, "ground"):
@@ -202,4 +206,5 @@ def _parts(solution: Any) -> list[slice]:
 
 def _states(solution: Any, part: slice) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Arrays t (k,), p (k, nq), v (k, nv) of a range of samples for the core."""
-    return tuple(np.ascontiguousarray(array[part]) for array in (solution.t, solution.p, solution.v))
+    t, p, v = (np.ascontiguousarray(array[part]) for array in (solution.t, solution.p, solution.v))
+    return t, p, v

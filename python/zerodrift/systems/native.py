@@ -24,9 +24,10 @@ from .variables import quaternion_places, with_units
 
 __all__ = ["BIT", "INTERFACE_VERSION", "SLOT", "get_include", "native", "numba_signature"]
 
-BIT = namedtuple("Bits", TERMS)(*(term.bit for term in TERMS.values()))
+_made: Any = namedtuple
+BIT = _made("Bits", TERMS)(*(term.bit for term in TERMS.values()))
 BIT.__class__.__doc__ = "Bits of ``want`` that request a term: ``want & BIT.M``."
-SLOT = namedtuple("Slots", TERMS)(*range(len(TERMS)))
+SLOT = _made("Slots", TERMS)(*range(len(TERMS)))
 SLOT.__class__.__doc__ = "Indices of the pointers to the terms: ``out[SLOT.M]``."
 INTERFACE_VERSION = _gateway.VERSION
 KIND = "zd_kind_"       # what the name of a `zd_kind` begins with in a library

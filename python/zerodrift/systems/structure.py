@@ -139,7 +139,7 @@ def checked(structure: Any, sizes: tuple[int, int, int, int], has_A: bool) -> _g
     return structure._packing
 
 
-def _sequence(name: str, given: Any, of: str) -> Sequence[Any]:
+def _sequence(name: str, given: Any, of: str) -> Sequence[Any] | np.ndarray:
     if isinstance(given, str) or not isinstance(given, Sequence | np.ndarray):
         raise WrongType(f"{name} must be a sequence {of}, not {_check.shown(given)}", "declared-structure")
     return given

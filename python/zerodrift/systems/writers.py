@@ -86,13 +86,14 @@ class Writer:
         gradients = not derived.isdisjoint({"C_H", "Phi_t"})
         motion = self._motion_as_jets(t, arrays, gradients=gradients)
         jets = self.functions["constraints"].evaluate_jets((self.mh,), *motion, arrays["v"])
-        gradient = autodiff.part(jets, "gradient", self.nq + 1) if gradients else None
-        if "C_H" in derived:
-            rows = gradient[:, :-1]
-            arrays["C_H"][...] = rows @ arrays["A"] if "A" in arrays else rows      # (5)
-        if "Phi_t" in derived:
-            arrays["Phi_t"][: self.mh] = gradient[:, -1]
-            arrays["Phi_t"][self.mh :] = 0.0
+        if gradients:
+            gradient = autodiff.part(jets, "gradient", self.nq + 1)
+            if "C_H" in derived:
+                rows = gradient[:, :-1]
+                arrays["C_H"][...] = rows @ arrays["A"] if "A" in arrays else rows      # (5)
+            if "Phi_t" in derived:
+                arrays["Phi_t"][: self.mh] = gradient[:, -1]
+                arrays["Phi_t"][self.mh :] = 0.0
         if "xi_H" in derived:
             arrays["xi"][: self.mh] = -autodiff.part(jets, "second")           # (6)
 
@@ -101,7 +102,7 @@ class Writer:
         p, v, A = arrays["p"], arrays["v"], arrays.get("A")
         velocity, curvature = (v, np.zeros(self.nq)) if A is None else (A @ v, self._curvature(t, p, v, A @ v))
         identity = np.eye(self.nq + 1) if gradients else None
-        time = autodiff.Jet(t, identity[-1] if gradients else 0.0, 1.0, 0.0)
+        time = autodiff.Jet(t, 0.0 if identity is None else identity[-1], 1.0, 0.0)
         return time, autodiff.seeds(p, velocity, curvature, identity)
 
     def _curvature(self, t: float, p: np.ndarray, v: np.ndarray, velocity: np.ndarray) -> np.ndarray:

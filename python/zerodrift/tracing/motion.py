@@ -63,7 +63,7 @@ class Motion:
 
     def turns(self) -> np.ndarray:
         """Mask of the coordinates that are angles."""
-        return np.array([coordinate.kind == "angle" for coordinate in self.core.coordinates], dtype=bool)
+        return np.array([coordinate.kind == "angle" for coordinate in self.core.motions], dtype=bool)
 
     def coordinates(self, x: np.ndarray, slopes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Points of the curve (k, n) and their derivatives by the measure in the coordinates of the system, (k, nq) each."""
@@ -106,7 +106,7 @@ class Motion:
             tables = Tables(self._drawing, self._numbers, in_tree=False, starts=self._starting.drives)
             core = measuring(tables, list(given))
             driven = _driven(self._drawing, tables, core)
-            names = [tables.joints[row.index].name if row.owner == "joint" else tables.relation_names[row.index]
+            names = [tables.joints[row.number].name if row.owner == "joint" else tables.relation_names[row.number]
                      for row in core.rows]
             p = Assembly(core, names, driven, assembly.length, 0.0).led_to(p, self._starting.targets(given, core))
         return assembly.core.poses(p)[0]
@@ -173,7 +173,7 @@ def _driven(drawing: Any, tables: Tables, core: Any) -> list[int]:
     """The holonomic rows of motors and actuators."""
     drives = {motor.name for motor in drawing.of(MOTORS)}
     return [i for i, row in enumerate(core.rows[: core.mh])
-            if row.owner == "relation" and tables.relation_names[row.index] in drives]
+            if row.owner == "relation" and tables.relation_names[row.number] in drives]
 
 
 def _component(core: Any, name: str) -> Component:

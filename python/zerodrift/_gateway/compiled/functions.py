@@ -212,7 +212,7 @@ def _check_signature(types: list[str], what: str) -> None:
 
 
 def _is_ctypes(function: Any) -> bool:
-    return isinstance(function, ctypes._CFuncPtr)
+    return isinstance(function, ctypes._CFuncPtr)     # type: ignore[attr-defined]
 
 
 def _is_cffi(function: Any) -> bool:
@@ -321,8 +321,8 @@ def numba_signature() -> Any:
 
 
 def _from_scipy(function: Any) -> Function:
-    types = re.fullmatch(r"\s*(.*?)\s*\((.*)\)\s*", function.signature)
-    _check_signature([types[1], *map(str.strip, types[2].split(","))], "the LowLevelCallable")
+    result, _, types = function.signature.partition("(")
+    _check_signature([result.strip(), *map(str.strip, types.rpartition(")")[0].split(","))], "the LowLevelCallable")
     if function.user_data is not None:
         raise WrongValue("the LowLevelCallable must have no user_data: the argument of that place passes the parameters",
                          "compiled-function")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -59,7 +59,8 @@ class CoreAssembly:
         self._roles = ffi.new("int[]", [ROLES[role] for role in roles])
         self._nudge = np.random.default_rng(0).standard_normal(core.nv)
 
-    def run(self, operation: str, p: np.ndarray, targets: Sequence[CoreTarget] = (), *, left_out: Sequence[int] = ()) -> Outcome:
+    def run(self, operation: str, p: np.ndarray, targets: Sequence[CoreTarget] = (), *,
+            left_out: Collection[int] = ()) -> Outcome:
         """Outcome of a function of the core that changes positions, ``zd_<operation>``, from p (nq,) on.
 
         Constraints in `left_out` are ignored, too.
@@ -82,7 +83,7 @@ class CoreAssembly:
                      MESSAGE_SIZE)
         return text(message)
 
-    def _called(self, operation: str, targets: Sequence[CoreTarget], left_out: Sequence[int], found: np.ndarray,
+    def _called(self, operation: str, targets: Sequence[CoreTarget], left_out: Collection[int], found: np.ndarray,
                 *arrays: Any) -> Outcome:
         core, roles = self.core.for_run(), self._roles
         if left_out:

@@ -13,7 +13,7 @@ from ..base import MESSAGE_SIZE, text
 from ..systems import CoreSystem
 from .assembly import displaced, displacement
 from .element_tables import Row, law_sizes, rows_of, written_elements
-from .law_owner import Law, LawOwner, calls_python, compiled_table
+from .law_owner import Law, LawOwner, compiled_table
 
 
 class MechanismCore(CoreSystem):
@@ -44,6 +44,9 @@ class MechanismCore(CoreSystem):
     quantity_kinds: Mapping[str, int]       # the core's numbers of marker quantities, by name
     velocities: int                         # largest number of velocities of a body
     made_by: Any                            # function of the core that creates the mechanism
+    motions: Any                            # as each dimension has them
+    poses: Any
+    state: Any
 
     def __init__(self, tables: Any, law: Law | None = None, *, laws_know_time: bool = True) -> None:
         self.tables, self._law, self._laws_know_time = tables, law, laws_know_time
@@ -67,7 +70,7 @@ class MechanismCore(CoreSystem):
     @functools.cached_property
     def _reactions(self) -> dict[str, int]:
         """Joints by the names of their forces."""
-        return {each.name: each.index for each in self.measures if each.kind == "joint force"}
+        return {each.name: each.first for each in self.measures if each.kind == "joint force"}
 
     @classmethod
     def _function(cls, name: str) -> Any:
@@ -124,7 +127,10 @@ class MechanismCore(CoreSystem):
     @property
     def calls_python(self) -> bool:
         """True if the mechanism has user functions that are not compiled, and terms that call them."""
-        return calls_python(self, law_sizes(self.tables))
+        laws: Any = self._law
+        if laws is None or self._has_written_terms:
+            return False
+        return not hasattr(laws, "compiled") or not all(laws.compiled(law_sizes(self.tables)))
 
     @property
     def error(self) -> BaseException | None:

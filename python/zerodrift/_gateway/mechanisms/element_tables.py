@@ -2,18 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any, NamedTuple
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple
 
 from ..._core import ffi, lib
 from ..base import Card, card_of, text
 
+if TYPE_CHECKING:
+    from typing_extensions import TypeVar
+
+    Scalar = TypeVar("Scalar", default=float)
+else:
+    from typing import TypeVar
+
+    Scalar = TypeVar("Scalar")      # a float, or a node of a graph
+
+Component = TypeVar("Component")
+Triple = tuple[Component, Component, Component]
+ZERO: Any = 0.0
 FORCE_KINDS = {"spring": lib.ZD_FORCE_SPRING, "constant": lib.ZD_FORCE_CONSTANT, "law": lib.ZD_FORCE_LAW}
 OUTPUT_KINDS = {
     "values": lib.ZD_VALUES, "rates": lib.ZD_RATES, "accelerations": lib.ZD_ACCELERATIONS, "joint force": lib.ZD_JOINT_FORCE,
     "joint torque": lib.ZD_JOINT_TORQUE, "joint tension": lib.ZD_JOINT_TENSION, "force value": lib.ZD_FORCE_VALUE,
     "force power": lib.ZD_FORCE_POWER, "drive": lib.ZD_DRIVE_VALUE, "drive power": lib.ZD_DRIVE_POWER,
     "force sum": lib.ZD_FORCE_SUM, "torque sum": lib.ZD_TORQUE_SUM}
+
+
+def three(components: Iterable[Component]) -> Triple[Component]:
+    """Components of a vector, or rows of a frame, of which there must be three."""
+    x, y, z = components
+    return x, y, z
 
 
 class ElementQuantity(NamedTuple):
@@ -38,26 +56,26 @@ class ElementKind(NamedTuple):
     sign: int
 
 
-class Relation(NamedTuple):
+class Relation(NamedTuple, Generic[Scalar]):
     """A `zd_relation`: sum of coefficients times marker quantities - constant - slope t = 0, or a user function."""
 
     quantities: Sequence[int]
-    coefficients: Sequence[float] = ()      # without a law
-    constant: float = 0.0
-    slope: float = 0.0
+    coefficients: Sequence[Scalar] = ()     # without a law
+    constant: Scalar = ZERO
+    slope: Scalar = ZERO
     nonholonomic: bool = False
     law: int = -1
     joint: int = -1             # to whose force and torque it contributes as its drive
 
 
-class GeneralizedForce(NamedTuple):
+class GeneralizedForce(NamedTuple, Generic[Scalar]):
     """A `zd_generalized_force`; `kind` is a key of FORCE_KINDS."""
 
     kind: str
     quantity: int
-    stiffness: float = 0.0
-    damping: float = 0.0
-    value: float = 0.0
+    stiffness: Scalar = ZERO
+    damping: Scalar = ZERO
+    value: Scalar = ZERO
     law: int = -1
     inputs: Sequence[int] = ()  # marker quantities that the law depends on
     joint: int = -1             # to whose force and torque it contributes
@@ -71,7 +89,7 @@ class OutputSpec(NamedTuple):
     name: str
     unit: str
     kind: str
-    index: int                  # of the first marker quantity, the joint, generalized force or relation
+    first: int                  # index of the first marker quantity, the joint, generalized force or relation
     size: int = 1               # number of marker quantities, or of generalized forces in a sum
     scale: float = 1.0
     term: int = 0               # of drives: along which of the relation's marker quantities
@@ -89,7 +107,7 @@ class Row(NamedTuple):
     """Origin of a constraint: a joint (component: index among its constraints), or a relation."""
 
     owner: str                  # "joint" or "relation"
-    index: int
+    number: int
     component: int
 
 

@@ -18,7 +18,7 @@ class WrittenInputs(NamedTuple):
     """Numbers of generated code: which are inputs, and the functions that compute others from them."""
 
     numbers: np.ndarray
-    index: Mapping[str, int]            # of the first number of each input
+    first: Mapping[str, int]            # of the first number of each input
     derivations: Sequence[int]          # addresses
 
 
@@ -45,4 +45,4 @@ def _of_laws(laws: Any, numbers: Sequence[Any], names: Sequence[str]) -> list[Pl
 
 
 def _of_code(written: WrittenInputs, pointer: Any, names: Sequence[str]) -> list[Place]:
-    return [Place(name, name.endswith(".speed"), pointer + written.index[name]) for name in names]
+    return [Place(name, name.endswith(".speed"), pointer + written.first[name]) for name in names]

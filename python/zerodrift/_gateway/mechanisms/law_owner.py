@@ -68,14 +68,6 @@ def compiled_table(law: Law, sizes: dict[int, tuple[int, int]]) -> Any:
     return ffi.new("zd_compiled_law[]", rows), (kept, found)
 
 
-def calls_python(core: Any, sizes: dict[int, tuple[int, int]]) -> bool:
-    """True if a mechanism has user functions that are not compiled, and terms that call them."""
-    laws = core._law
-    if laws is None or core._has_written_terms:
-        return False
-    return not hasattr(laws, "compiled") or not all(laws.compiled(sizes))
-
-
 @ffi.def_extern(error=lib.ZD_CALLBACK)
-def zd_law_in_python(owner, law, t, x, xdot, out):
-    return ffi.from_handle(owner).evaluate(law, t, x, xdot, out)
+def zd_law_in_python(owner: Any, *arguments: Any) -> int:
+    return ffi.from_handle(owner).evaluate(*arguments)

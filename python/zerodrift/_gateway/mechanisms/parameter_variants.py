@@ -118,8 +118,9 @@ def _first(tables: Tables) -> Tables:
     """Tables of the first mechanism."""
     def one(row: Any) -> Any:
         return type(row)(*([_single(each) for each in field] if isinstance(field, list) else _single(field) for field in row))
-    return tables._replace(gravity=_single(tuple(tables.gravity)), **{
-        name: [one(row) for row in getattr(tables, name)] for name in ("bodies", "joints", "quantities", "relations", "forces")})
+    first: dict[str, Any] = {name: [one(row) for row in getattr(tables, name)]
+                             for name in ("bodies", "joints", "quantities", "relations", "forces")}
+    return tables._replace(gravity=_single(tuple(tables.gravity)), **first)
 
 
 def _fields(rows: Sequence[Any]) -> Iterator[tuple[int, str, int, Any]]:

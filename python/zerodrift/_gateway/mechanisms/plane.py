@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple
 
 import numpy as np
 
@@ -14,11 +14,12 @@ from ..base import Card, card_of, doubles, text
 from ..measures import given
 from . import element_tables
 from .core import MechanismCore
-from .element_tables import GeneralizedForce, OutputSpec, Relation
+from .element_tables import ZERO, GeneralizedForce, OutputSpec, Relation, Scalar
 
 QUANTITY_KINDS = {"x": lib.ZD_PLANE_X, "y": lib.ZD_PLANE_Y, "angle": lib.ZD_PLANE_ANGLE, "along": lib.ZD_PLANE_ALONG,
                   "across": lib.ZD_PLANE_ACROSS, "distance": lib.ZD_PLANE_DISTANCE, "glide": lib.ZD_PLANE_GLIDE,
                   "skid": lib.ZD_PLANE_SKID}
+ONE: Any = 1.0
 INBOARD_TYPES = {lib.ZD_NOT_INBOARD: None, lib.ZD_TURNS: "turns", lib.ZD_SLIDES: "slides", lib.ZD_FIXED: "fixed"}
 ZEROS = {lib.ZD_ZERO_NONE: None, lib.ZD_ZERO_ALONG: "along", lib.ZD_ZERO_ACROSS: "across", lib.ZD_ZERO_ANGLE: "angle",
          lib.ZD_ZERO_LENGTH: "length"}
@@ -75,16 +76,16 @@ class Joint(NamedTuple):
     length: float = 0.0         # of a rod; radius of a rolling wheel
 
 
-class Quantity(NamedTuple):
+class Quantity(NamedTuple, Generic[Scalar]):
     """A `zd_plane_quantity`; `kind` is a key of QUANTITY_KINDS."""
 
     kind: str
     first: int
     second: int
-    point1: tuple[float, float] = (0.0, 0.0)
-    point2: tuple[float, float] = (0.0, 0.0)
-    axis: tuple[float, float] = (1.0, 0.0)
-    zero: float = 0.0           # taken from the reading
+    point1: tuple[Scalar, Scalar] = (ZERO, ZERO)
+    point2: tuple[Scalar, Scalar] = (ZERO, ZERO)
+    axis: tuple[Scalar, Scalar] = (ONE, ZERO)
+    zero: Scalar = ZERO         # taken from the reading
 
 
 class Tables(NamedTuple):
@@ -140,15 +141,10 @@ class PlaneCore(MechanismCore):
     dimension, quantity_kinds, velocities, made_by = "plane", QUANTITY_KINDS, 3, lib.zd_plane_create
 
     @functools.cached_property
-    def coordinates(self) -> tuple[Coordinate, ...]:
-        """Meaning of each entry of p."""
-        coordinates = lib.zd_plane_coordinates(self._mechanism)
-        return tuple(Coordinate(coordinates[i].body, COORDINATES[coordinates[i].kind]) for i in range(self.nq))
-
-    @property
     def motions(self) -> tuple[Coordinate, ...]:
         """Coordinate whose rate each entry of v is."""
-        return self.coordinates
+        coordinates = lib.zd_plane_coordinates(self._mechanism)
+        return tuple(Coordinate(coordinates[i].body, COORDINATES[coordinates[i].kind]) for i in range(self.nq))
 
     @property
     def origin(self) -> np.ndarray:

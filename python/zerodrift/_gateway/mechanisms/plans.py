@@ -7,11 +7,12 @@ quantities.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple
 
 from ..._core import ffi, lib
-from .element_tables import FORCE_KINDS, GeneralizedForce, Relation
-from .plane import QUANTITY_KINDS, PlaneCore, Quantity
+from .core import MechanismCore
+from .element_tables import FORCE_KINDS, GeneralizedForce, Relation, Scalar
+from .plane import QUANTITY_KINDS, Quantity
 
 FREE, FREE_POINT, TURNING = lib.ZD_HANGS_FREE, lib.ZD_HANGS_FREE_POINT, lib.ZD_HANGS_TURNING
 SLIDING, FIXED, PINNED = lib.ZD_HANGS_SLIDING, lib.ZD_HANGS_FIXED, lib.ZD_HANGS_PINNED
@@ -19,34 +20,34 @@ NAMES_OF_QUANTITIES = {value: name for name, value in QUANTITY_KINDS.items()}
 NAMES_OF_FORCES = {value: name for name, value in FORCE_KINDS.items()}
 
 
-class Link(NamedTuple):
+class Link(NamedTuple, Generic[Scalar]):
     """A `zd_plane_link`: connection of a body to its parent. `hang` is FREE, FREE_POINT, TURNING, SLIDING, FIXED or PINNED."""
 
     hang: int
     inner: int
     coordinate: int
-    near: tuple[Any, Any]
-    far: tuple[Any, Any]
-    axis: tuple[Any, Any]
-    along: Any
-    angle: Any
-    cosine: Any
-    sine: Any
-    mass: Any
-    inertia: Any
+    near: tuple[Scalar, Scalar]
+    far: tuple[Scalar, Scalar]
+    axis: tuple[Scalar, Scalar]
+    along: Scalar
+    angle: Scalar
+    cosine: Scalar
+    sine: Scalar
+    mass: Scalar
+    inertia: Scalar
 
 
-class PlanePlan(NamedTuple):
+class PlanePlan(NamedTuple, Generic[Scalar]):
     """A `zd_plane_plan`; bodies have the tree's numbers, the first link is that of body 1, and all marker quantities are used."""
 
-    links: tuple[Link, ...]
-    quantities: tuple[Quantity, ...]
-    rows: tuple[Relation, ...]          # holonomic ones first; their marker quantities are numbers in `quantities`
-    forces: tuple[GeneralizedForce, ...]
-    gravity: tuple[Any, Any]
+    links: tuple[Link[Scalar], ...]
+    quantities: tuple[Quantity[Scalar], ...]
+    rows: tuple[Relation[Scalar], ...]  # holonomic ones first; their marker quantities are numbers in `quantities`
+    forces: tuple[GeneralizedForce[Scalar], ...]
+    gravity: tuple[Scalar, Scalar]
 
 
-def plan_of(core: PlaneCore, measured: Sequence[int] = ()) -> PlanePlan:
+def plan_of(core: MechanismCore, measured: Sequence[int] = ()) -> PlanePlan:
     """The plan of a mechanism; marker quantities of measures, by their numbers in the core's table, follow those in use."""
     c = lib.zd_plane_planned(core._mechanism)
     links = tuple(_link(c.link[i]) for i in range(1, len(core.tables.bodies) + 1))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from ..._core import ffi, lib
 from ..base import Card, card_of, doubles, text
 from . import element_tables
 from .core import MechanismCore
-from .element_tables import GeneralizedForce, OutputSpec, Relation
+from .element_tables import ZERO, GeneralizedForce, OutputSpec, Relation, Scalar, Triple, three
 from .law_owner import Law
 from .plane import Coordinate
 
@@ -28,10 +28,10 @@ FREEDOMS = {lib.ZD_SPACE_SLIDES: "slides", lib.ZD_SPACE_TURNS: "turns", lib.ZD_S
             lib.ZD_SPACE_SWINGS: "swings"}
 BODY, PARTICLE = (7, 6), (3, 3)     # coordinates and velocities
 
-Vector = tuple[float, float, float]
-Frame = tuple[Vector, Vector, Vector]
-NONE: Vector = (0.0, 0.0, 0.0)
-AS_DRAWN: Frame = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+Vector = Triple[float]
+Frame = Triple[Vector]
+NONE: Triple[Any] = (0.0, 0.0, 0.0)
+AS_DRAWN: Triple[Triple[Any]] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 class Freedom(NamedTuple):
@@ -82,20 +82,20 @@ class Joint(NamedTuple):
     length: float = 0.0         # of a rod; of a screw m for each rad
 
 
-class Quantity(NamedTuple):
+class Quantity(NamedTuple, Generic[Scalar]):
     """A `zd_space_quantity`; `kind` is a key of QUANTITY_KINDS."""
 
     kind: str
     first: int
     second: int
-    point1: Vector = NONE
-    point2: Vector = NONE
-    a: Vector = AS_DRAWN[0]     # directions of the first body, and one of the second
-    o: Vector = AS_DRAWN[1]
-    b: Vector = AS_DRAWN[0]
+    point1: Triple[Scalar] = NONE
+    point2: Triple[Scalar] = NONE
+    a: Triple[Scalar] = AS_DRAWN[0]     # directions of the first body, and one of the second
+    o: Triple[Scalar] = AS_DRAWN[1]
+    b: Triple[Scalar] = AS_DRAWN[0]
     # In the second body's axes: an ellipsoid x^T shape^-1 x = 1; of a rotation the first body's axes where it is zero
-    shape: Frame = (NONE, NONE, NONE)
-    zero: float = 0.0
+    shape: Triple[Triple[Scalar]] = (NONE, NONE, NONE)
+    zero: Scalar = ZERO
     counted: int = 0            # of an angle that counts turns: 1 + which one it is of all angles of joints
 
 
@@ -147,8 +147,8 @@ def coordinate_quantity(joint: Joint, coordinate: int, angles: int) -> Quantity:
 
 def quantity_of(c: Any) -> Quantity:
     """Marker quantity of the core's struct."""
-    vectors = (tuple(each) for each in (c.point1, c.point2, c.a, c.o, c.b))
-    return Quantity(NAMES[c.kind], c.first, c.second, *vectors, tuple(map(tuple, c.shape)), c.zero, c.counted)
+    point1, point2, a, o, b = map(three, (c.point1, c.point2, c.a, c.o, c.b))
+    return Quantity(NAMES[c.kind], c.first, c.second, point1, point2, a, o, b, three(map(three, c.shape)), c.zero, c.counted)
 
 
 class SpaceCore(MechanismCore):

@@ -83,7 +83,7 @@ class DrawingChanges:
         core = self._assembly.core
         for row, variable, value in zip(core.rows, constraint_names(self._tables, core), self._Phi, strict=False):
             if row.owner == "joint":
-                gap = gaps.setdefault(row.index, {"m": 0.0, "rad": 0.0})
+                gap = gaps.setdefault(row.number, {"m": 0.0, "rad": 0.0})
                 gap[variable.unit] = float(np.hypot(gap[variable.unit], value))
         return gaps
 
@@ -91,7 +91,7 @@ class DrawingChanges:
         return max(gap["m"] / self._extent, gap["rad"])
 
     def _open_joints(self) -> list[str]:
-        open_by = {self._tables.joints[joint].name: float(np.hypot(*gap.values())) for joint, gap in self._gaps().items()}
+        open_by = {self._tables.joints[joint].name: float(np.hypot(gap["m"], gap["rad"])) for joint, gap in self._gaps().items()}
         return [f"{name!r} by {by:.3g}" for name, by in _largest(open_by) if by > NAMED * self._extent]
 
     def _in_words(self, amounts: dict[str, float]) -> str:

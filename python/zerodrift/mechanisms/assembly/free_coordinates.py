@@ -12,15 +12,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..._gateway.mechanisms.element_tables import OutputSpec
+from ..._gateway.mechanisms.element_tables import OutputSpec, three
 from ..._gateway.mechanisms.space import Quantity
 from ..elements.bodies import Body, Point
 from ..elements.drawing import Drawing
 from ..elements.forces import Actuator, Motor
 from ..elements.joints import Coupling, Joint
 from ..elements.space_joints import SpaceJoint, speeds
-from ..equations.measure_names import has_coordinate, reading_of_start
+from ..equations.measure_names import has_coordinate, is_rate
 from ..equations.tables import Tables
+from ..equations.tree import ends
 from .joint_paths import Reach
 
 
@@ -70,7 +71,7 @@ def unforced(drawing: Drawing, tables: Tables) -> Unforced:
         return Unforced()
     coordinates = _Coordinates(drawing, tables)
     given = [name for values in (drawing.held, drawing.wished) for name in values]
-    rates = [name for name in given if _is_rate(name, drawing)]
+    rates = [name for name in given if is_rate(name, drawing.elements)]
     positions = [name for name in given if name not in rates]
     of = (positions, rates, ()) if is_driven(drawing) else (positions, rates)
     return Unforced(*(coordinates.unforced(_forced(drawing, each)) for each in of))
@@ -115,12 +116,12 @@ class _Coordinates:
         moving = self.reach.moving_with(ways, {self.coordinates[i].body for i in alone}, self._couplings(numbers))
         return [each for i, each in enumerate(self.coordinates) if i not in alone and each.body not in moving]
 
-    def _edges(self) -> tuple[list[int], list[tuple[int, ...]]]:
+    def _edges(self) -> tuple[list[int], list[tuple[int, int]]]:
         """Inboard joints and ends of joints, in which bodies are free that the ground guides in a plane."""
-        ends = [tuple(self.tables.number[body.name] for body in joint.bodies) for joint in self.tables.joints]
-        guides = {i for i, joint in enumerate(self.tables.joints) if joint.kind == "planar" and 0 in ends[i]}
+        pairs = [ends(joint, self.tables.number) for joint in self.tables.joints]
+        guides = {i for i, joint in enumerate(self.tables.joints) if joint.kind == "planar" and 0 in pairs[i]}
         return ([-1 if joint in guides else joint for joint in self.inboard],
-                [(max(each),) * 2 if i in guides else each for i, each in enumerate(ends)])
+                [(max(each), max(each)) if i in guides else each for i, each in enumerate(pairs)])
 
     def _numbers(self) -> dict[str, list[int]]:
         """Numbers of the coordinates by the measures that are theirs or their rates."""
@@ -174,7 +175,7 @@ def _of_joint(number: int, body: Body, joint: Joint) -> Iterator[Coordinate]:
         return
     for speed, coordinate in speeds(joint.row).items():
         yield Coordinate(number, f"{joint.name}.{coordinate}", f"{joint.name}.{speed}")
-    if body.turns and any(each.kind == "swings" for each in joint.row.freedoms):
+    if body.turns and any(each.kind == "swings" for each in joint.row.freedoms or ()):
         yield Coordinate(number, f"{joint.name} swings", f"{joint.name} swings at", joint=joint)
 
 
@@ -195,13 +196,9 @@ def swings(tables: Tables, coordinates: Iterable[Coordinate], first: int) -> tup
     for each in coordinates:
         if each.joint is None:
             continue
-        bodies = [tables.number[body.name] for body in each.joint.bodies]
-        cosines = [Quantity("cosine", *bodies, a=tuple(a), b=tuple(b)) for a in np.eye(3) for b in np.eye(3)]
+        first_body, second_body = ends(each.joint, tables.number)
+        cosines = [Quantity("cosine", first_body, second_body, a=three(a), b=three(b)) for a in np.eye(3) for b in np.eye(3)]
         for name, unit, quantity in ((each.position, "", "values"), (each.rate, "1/s", "rates")):
             observed.append(OutputSpec(name, unit, quantity, first + len(quantities), len(cosines)))
         quantities += cosines
     return quantities, observed
-
-
-def _is_rate(name: str, drawing: Drawing) -> bool:
-    return reading_of_start(name, drawing.elements).is_rate

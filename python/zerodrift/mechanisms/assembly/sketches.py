@@ -8,8 +8,9 @@ from typing import Any, NamedTuple
 from ..elements.bodies import Link
 from ..elements.forces import Actuator, Motor
 from ..elements.joints import Coupling, Joint, draws_length
-from ..equations.measure_names import reading_of_start
+from ..equations.measure_names import is_rate
 from ..equations.tables import Tables
+from ..equations.tree import ends
 from .free_coordinates import bodies_of
 from .joint_paths import Reach
 
@@ -26,9 +27,9 @@ class Loop(NamedTuple):
 def loop_of(tables: Tables, joint: int) -> Loop:
     """Loops that contain a joint, by its number."""
     inboard = tables.tree(with_cut=True)
-    ends = [tuple(tables.number[body.name] for body in each.bodies) for each in tables.joints]
+    pairs = [ends(each, tables.number) for each in tables.joints]
     edge = next((body for body, each in enumerate(inboard, 1) if each == joint), -1 - joint)
-    edges = {edge, *Reach(inboard, ends).moving_with((), (edge,), ())}
+    edges = {edge, *Reach(inboard, pairs).moving_with((), (edge,), ())}
     numbers = {-1 - each if each < 0 else inboard[each - 1] for each in edges} - {-1}
     joints = [tables.joints[number] for number in sorted(numbers)]
     return Loop({body.name for each in joints for body in each.bodies} - {"ground"}, joints)
@@ -56,7 +57,7 @@ def _prescribed(tables: Tables, also_held: Iterable[str]) -> Iterator[Any]:
     names = [*drawing.held, *drawing.wished, *also_held]
     names += [name for each in drawing.of(Coupling) if each.law is not None for name in each.of]
     for name in names:
-        if not reading_of_start(name, drawing.elements).is_rate:
+        if not is_rate(name, drawing.elements):
             yield drawing.elements[name.partition(".")[0]]
     yield from (each.joint for each in drawing.of(Motor) if each.prescribes)
     yield from (each for each in drawing.of(Actuator) if each.prescribes)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..._gateway.mechanisms.space import SpaceCore
+from ..._gateway.mechanisms.core import MechanismCore
 from ..._rotations import rotation_of
 from ..elements.bodies import Body
 from ..elements.joints import Joint
@@ -23,7 +23,7 @@ MAX_ROWS = 300         # constraints, at most, for a singular value decompositio
 SHAFTS = "revolute", "cylindrical"
 
 
-def on_failure(tables: SpaceTables, core: SpaceCore, t: float, p: np.ndarray) -> str | None:
+def on_failure(tables: SpaceTables, core: MechanismCore, t: float, p: np.ndarray) -> str | None:
     """Known cause near the state in which a run has failed, or None."""
     R = _rotations(core, p)
     for joint in tables.joints:
@@ -66,14 +66,14 @@ def _shafts(tables: SpaceTables, joint: SpaceJoint, R: Sequence[np.ndarray]) -> 
     return axes, names
 
 
-def at_right_angles(tables: SpaceTables, core: SpaceCore, p: np.ndarray) -> list[str]:
+def at_right_angles(tables: SpaceTables, core: MechanismCore, p: np.ndarray) -> list[str]:
     """Sentences on universal joints whose shafts are, and stay, at a right angle."""
     R = _rotations(core, p)
     advice = [_of_shafts(tables, joint, R, PARALLEL) for joint in _with_shafts(tables)]
     return [each for each in advice if each]
 
 
-def flat_crosses(tables: SpaceTables, core: SpaceCore, p: np.ndarray) -> list[str]:
+def flat_crosses(tables: SpaceTables, core: MechanismCore, p: np.ndarray) -> list[str]:
     """Sentence on each universal joint whose cross lies in the plane of both shafts, where its arms stay perpendicular."""
     R, advice = _rotations(core, p), []
     for joint in _with_shafts(tables):
@@ -86,7 +86,7 @@ def flat_crosses(tables: SpaceTables, core: SpaceCore, p: np.ndarray) -> list[st
     return advice
 
 
-def of_angles(tables: SpaceTables, core: SpaceCore, p: np.ndarray, names: Sequence[str]) -> str:
+def of_angles(tables: SpaceTables, core: MechanismCore, p: np.ndarray, names: Sequence[str]) -> str:
     """Sentence on universal joints whose angles cannot be met: the angle that bearings keep between the shafts; or ""."""
     R, advice = _rotations(core, p), []
     for joint in _with_shafts(tables):
@@ -104,7 +104,7 @@ def _with_shafts(tables: SpaceTables) -> list[SpaceJoint]:
         shafts = [_shaft(tables, body) for body in joint.bodies] if joint.kind == "universal" else [None]
         if all(shaft is not None and _passes_through(shaft, joint, body)
                for shaft, body in zip(shafts, joint.bodies, strict=False)):
-            holding = {other for shaft in shafts for other in shaft.bodies if other not in joint.bodies}
+            holding = {other for shaft in shafts if shaft for other in shaft.bodies if other not in joint.bodies}
             found += [joint] if len(holding) == 1 else []
     return found
 
@@ -118,15 +118,15 @@ def _passes_through(shaft: SpaceJoint, joint: SpaceJoint, body: Body) -> bool:
     """True if the axis of the bearing passes through the joint, in the drawing of the body that both share."""
     places = [(each.first, each.second)[each.bodies.index(body)].drawn for each in (shaft, joint)]
     way = places[1] - places[0]
-    return bool(np.linalg.norm(np.cross(shaft.axis_as_drawn(), way)) <= MEETS * max(np.linalg.norm(way), 1e-300))
+    return bool(np.linalg.norm(np.cross(shaft.axis_as_drawn(), way)) <= MEETS * max(float(np.linalg.norm(way)), 1e-300))
 
 
-def _rotations(core: SpaceCore, p: np.ndarray) -> list[np.ndarray]:
+def _rotations(core: MechanismCore, p: np.ndarray) -> list[np.ndarray]:
     """Rotations (3, 3) of the ground and the bodies."""
     return [np.eye(3), *rotation_of(core.poses(p)[0][:, 3:])]
 
 
-def at_start(tables: SpaceTables, core: SpaceCore, t: float, p: np.ndarray, name: str) -> str | None:
+def at_start(tables: SpaceTables, core: MechanismCore, t: float, p: np.ndarray, name: str) -> str | None:
     """Sentence on joints that leave no motion, with the axes that may cause it; None if they leave some."""
     if core.m > MAX_ROWS:
         return None

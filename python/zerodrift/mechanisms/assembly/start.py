@@ -10,6 +10,7 @@ import numpy as np
 
 from ..._gateway.mechanisms.blocks import BlockCore, of_joints
 from ..._gateway.mechanisms.core import MechanismCore
+from ..._gateway.mechanisms.space import SpaceCore
 from ..._rotations import quaternion_of
 from ...errors import CorrectionFailed, InconsistentStart, SingularSystem, sentence
 from ..elements import columns
@@ -17,11 +18,11 @@ from ..elements.drawing import Drawing
 from ..elements.forces import Motor
 from ..elements.joints import Coupling
 from ..elements.numbers import Numbers
-from ..equations.measure_names import Reading, checked_reading, reading_of_start
+from ..equations.measure_names import checked_reading, is_rate
 from ..equations.measure_tables import read
 from ..equations.space_tables import SpaceTables, tables_of
 from ..equations.tables import Tables
-from ..equations.tree import loop
+from ..equations.tree import ends, loop
 from .assembly import Assembly, Rates, Target, is_of_many
 from .drawing_changes import DrawingChanges
 from .drive_starts import Conditions, DriveStarts, drawn_targets, drive_starts, driven_coordinate, speed_drives
@@ -131,7 +132,7 @@ class Starting:
             p = aside(assembly, p, nudge, self.targets(self.drawing.held, assembly.core, rates=True))
         poses = assembly.core.poses(p, self.velocities(assembly, p).v)
         check_directions(tables, poses[0], assembly.length)
-        return poses if self.drawing.dimension == 2 else (*poses, assembly.core.angles(p))
+        return (*poses, core.angles(p)) if isinstance(core := assembly.core, SpaceCore) else poses
 
     def velocities(self, assembly: Assembly, p: np.ndarray) -> Rates:
         """Velocities at p: with the held and wished values, the nearest in kinetic energy to those that drives alone give.
@@ -141,13 +142,13 @@ class Starting:
         alone, given = self._velocities_of_drives(assembly, p), self._rates_of_start(assembly.core)
         if not any(given):
             return alone
-        given = (*given, self._staying(assembly.core, "rates"))
+        staying = self._staying(assembly.core, "rates")
         if not alone.v.any():
-            return Rates(assembly.velocities(p, *given))
-        without = tuple(assembly.with_rates_of(p, alone.v, each) for each in given)
-        v = assembly.velocities(p, *given[:2], without[2])
-        staying = without[2] if assembly.meets(p, v, without[2]) else ()
-        found = assembly.changed(v, alone.v - assembly.velocities(p, *without[:2], staying))
+            return Rates(assembly.velocities(p, *given, staying))
+        held, wished, staying = (assembly.with_rates_of(p, alone.v, each) for each in (*given, staying))
+        v = assembly.velocities(p, *given, staying)
+        kept = staying if assembly.meets(p, v, staying) else ()
+        found = assembly.changed(v, alone.v - assembly.velocities(p, held, wished, kept))
         return Rates(found, alone.is_relative or found is not v)
 
     def _velocities_of_drives(self, assembly: Assembly, p: np.ndarray) -> Rates:
@@ -188,7 +189,8 @@ class Starting:
         quantities, observed = read(tables, measured)
         more, of_swings = swings(tables, dict.fromkeys(staying), len(quantities))
         core = tables.core([*quantities, *more], [*observed, *of_swings]) if measured else tables.core()
-        names = [tables.joints[row.index].name if row.owner == "joint" else tables.relation_names[row.index] for row in core.rows]
+        names = [tables.joints[row.number].name if row.owner == "joint" else tables.relation_names[row.number]
+                 for row in core.rows]
         motors = {motor.name for motor in drives_of(self.drawing)} if without_speeds else set()
         left_out = [i for i, row in enumerate(core.rows) if row.owner == "relation" and names[i] in motors]
         linear = {each.name for each in self.drawing.of(Coupling) if each.law is None}
@@ -244,8 +246,7 @@ class Starting:
         index = {row.name: i for i, row in enumerate(core.measures)}
         targets = []
         for name, value in given.items():
-            read: Reading = reading_of_start(name, self.drawing.elements)
-            if read.is_rate != rates:
+            if is_rate(name, self.drawing.elements) != rates:
                 continue
             base, _, axis = name.rpartition(".")
             if name in index:
@@ -278,10 +279,10 @@ class Starting:
         owners = [self.drawing.elements[name.partition(".")[0]] for name in self.drawing.held]
         owners += [motor.joint for motor in self.drawing.of(Motor)]
         meant = {body.name for owner in owners for body in bodies_of(owner)}
-        ends = [tuple(tables.number[body.name] for body in joint.bodies) for joint in tables.joints]
-        cuts = set(range(len(ends))) - set(tables.inboard)
+        pairs = [ends(joint, tables.number) for joint in tables.joints]
+        cuts = set(range(len(pairs))) - set(tables.inboard)
         for joint in sorted(cut for cut in cuts if not tables.joints[cut].is_of_one_body):
-            description, bodies = _around(tables, *loop(tables.inboard, ends, joint))
+            description, bodies = _around(tables, *loop(tables.inboard, pairs, joint))
             if meant & bodies - {"ground"}:
                 return f"; in {description}"
         return ""

@@ -60,6 +60,6 @@ def _is_half_turned(tables: Tables, element: TableForce, poses: np.ndarray) -> b
     about = [(i, path) for i, (path, _) in enumerate(paths(element.row)) if element.quantities[i].kind == "rotation"]
     if not any(tables.numbers(element, path, element.values[path]) for _, path in about):
         return False
-    quantity = tables.quantities[tables.quantity_number[f"{element.name} {about[0][0]}"]]
+    quantity: Any = tables.quantities[tables.quantity_number[f"{element.name} {about[0][0]}"]]
     first, second = (rotation_of(poses[body - 1][3:]) if body else np.eye(3) for body in (quantity.first, quantity.second))
     return np.trace(second @ np.transpose(quantity.shape) @ first.T) + 1 < HALF_TURN**2

@@ -14,7 +14,7 @@ from ..elements.columns import Column, Varies, expand
 from ..elements.drawing import Drawing
 from ..elements.frames import turned
 from ..elements.numbers import Numbers
-from ..equations.measure_names import reading
+from ..equations.measure_names import is_rate
 from ..equations.measure_tables import read
 from ..equations.tables import Tables
 from .free_coordinates import Coordinate, names_of, unforced
@@ -66,11 +66,11 @@ def _held(drawing: Drawing, index: Mapping[str, int]) -> list[Held]:
     """Held values of the start, by component."""
     held = []
     for name, value in drawing.held.items():
-        is_rate, (base, _, axis) = reading(name, drawing.elements).is_rate, name.rpartition(".")
+        rate, (base, _, axis) = is_rate(name, drawing.elements), name.rpartition(".")
         if name in index:
-            held += [Held(index[name], i, is_rate, float(each)) for i, each in enumerate(np.atleast_1d(value))]
+            held += [Held(index[name], i, rate, float(each)) for i, each in enumerate(np.atleast_1d(value))]
         else:
-            held.append(Held(index[base], "xy".index(axis), is_rate, float(value)))
+            held.append(Held(index[base], "xy".index(axis), rate, float(value)))
     return held
 
 

@@ -66,8 +66,8 @@ class BodyVerbs(Elements):
         if self.dimension == 3:
             if angle:
                 raise WrongValue(f"angle of {name!r} is for the plane: in space take rotation=", "wrong-dimension")
-            pose = Pose3(at, given_rotation(f"rotation of {name!r}", rotation))
-            return self._add(SpaceBody(name, pose, mass, tensor(f"inertia of {name!r}", inertia), com))
+            turned = Pose3(at, given_rotation(f"rotation of {name!r}", rotation))
+            return self._add(SpaceBody(name, turned, mass, tensor(f"inertia of {name!r}", inertia), com))
         if rotation is not None:
             raise WrongValue(f"rotation of {name!r} is for mechanisms in space: in the plane take angle=", "wrong-dimension")
         pose = Pose(at, _check.number(f"angle of {name!r}", angle))

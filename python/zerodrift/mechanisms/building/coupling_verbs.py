@@ -10,7 +10,7 @@ from ...errors import WrongType, WrongValue
 from ..elements.joints import Coupling, Joint
 from ..elements.measures import Measure, name_of
 from ..elements.user_functions import Law
-from ..equations.measure_names import reading
+from ..equations.measure_names import checked_reading
 from .periodic_spline import PeriodicSpline
 from .registry import Elements
 
@@ -100,7 +100,7 @@ class CouplingVerbs(Elements):
 
     def _couple(self, name: str, kind: str, of: tuple[str, ...], **how: Any) -> Coupling:
         """Add a coupling of measures; its effort is a torque if all of them are angles or rates of angles."""
-        bases = [base.partition(".")[2] for each in of for base in reading(each, self._elements).quantities]
+        bases = [base.partition(".")[2] for each in of for base in checked_reading(each, each, None, self._elements).quantities]
         return self._add(Coupling(name, kind, of, "torque" if all("ang" in base for base in bases) else "force", **how))
 
     def coupler(self, name: str, value: Any, *, of: Mapping[str, Any] | None = None) -> Coupling:

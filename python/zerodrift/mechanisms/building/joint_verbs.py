@@ -78,6 +78,6 @@ class JointVerbs(TableVerbs, SpaceJointVerbs):
         first, at, second = self._body("first", first), self._drawn("at", at), self._named("second", second)
         if isinstance(second, Body) and second.turns:
             second = self._body("second", second).point((0.0, 0.0))
-        first, second = self._different(name, first.point(at=at), self._point("second", second))
-        self._turning(name, "rolling", first.body, second.body)
-        return self._add(Rolling(name, first, second, radius, first.body.pose.local_direction(normal)))
+        one, other = self._different(name, first.point(at=at), self._point("second", second))
+        self._turning(name, "rolling", one.body, other.body)
+        return self._add(Rolling(name, one, other, radius, one.body.pose.local_direction(normal)))

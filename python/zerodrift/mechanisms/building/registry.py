@@ -69,11 +69,14 @@ class Elements:
         raise WrongValue(f"{argument} names {value!r}, which is not an element of {self.name!r}; {_check.closest(value, known)}",
                          "wrong-name")
 
+    def _is_own(self, element: Any) -> bool:
+        return self._elements.get(element.name) is element
+
     def _body(self, argument: str, value: Any) -> Body:
         """Body of this mechanism, checked."""
         value = self._named(argument, value)
         _check.instance(argument, value, Body, f"a body of {self.name!r}")
-        if self._elements.get(value.name) is not value:
+        if not self._is_own(value):
             raise WrongValue(f"{argument} must be a body of {self.name!r}, and {value!r} is not: it belongs to another mechanism",
                              "wrong-element")
         return value
@@ -105,7 +108,7 @@ class Elements:
         """Joint of this mechanism, checked to have one of these coordinates, "angle" or "displacement"."""
         value = self._named(argument, value)
         _check.instance(argument, value, Joint, "a joint")
-        if self._elements.get(value.name) is not value:
+        if not self._is_own(value):
             raise WrongValue(f"{argument} must be a joint of {self.name!r}, and {value!r} belongs to another mechanism",
                              "wrong-element")
         if not set(value.coordinates) & set(coordinate):

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ... import _check
+from ..._gateway.mechanisms.element_tables import three
 from ...errors import WrongType, WrongValue
 from ..elements.bodies import Body, Point
 from ..elements.frames import perpendicular
@@ -62,7 +63,7 @@ class SpaceJointVerbs(Elements):
             if axle is not None:
                 raise WrongType(f"{name!r} has semiaxes, of an ellipsoid, and no axle", "conflicting-arguments")
             given = _check.vector(f"semiaxes of {name!r}", semiaxes, 3)
-            return np.eye(3), tuple(_check.number(f"each of the semiaxes of {name!r}", float(each), above=0) for each in given)
+            return np.eye(3), three(_check.number(f"each of the semiaxes of {name!r}", float(each), above=0) for each in given)
         radius = _check.number(f"radius of {name!r}", radius, above=0)
         if axle is None:
             return np.eye(3), (radius, radius, radius)

@@ -53,7 +53,7 @@ def force_verb(force: type[TableForce]) -> Callable[..., Any]:
         return _add(values.pop("self"), force, values.pop("name"), values)
 
     make.__name__, make.__qualname__ = force.kind, f"Mechanism.{force.kind}"
-    make.__doc__, make.__signature__ = _documentation(force), signature      # type: ignore[attr-defined]
+    make.__doc__, vars(make)["__signature__"] = _documentation(force), signature
     return make
 
 
@@ -150,7 +150,8 @@ def _frames(name: str, first: Point, second: Point, axis: Any, normal: Any) -> t
             raise WrongValue(f"normal of {name!r} must not be parallel to its axis", "geometry")
         normal = perpendicular(axis, normal)
         frame = np.stack([axis, normal, np.cross(axis, normal)])
-    return tuple(np.stack([side.body.pose.local_direction(row) for row in frame]) for side in (first, second))
+    one, other = (np.stack([side.body.pose.local_direction(row) for row in frame]) for side in (first, second))
+    return one, other
 
 
 def _values(word: str, name: str, entry: ElementKind, given: Any) -> dict[str, float]:

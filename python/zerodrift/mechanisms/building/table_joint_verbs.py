@@ -42,13 +42,14 @@ def verb(plane: type[Joint] | None, space: type[SpaceJoint] | None = None) -> Ca
                 raise WrongType(f"{either.kind}(): {error}") from None
         _check_dimension(m, plane, space)
         name = values.pop("name")
-        if m.dimension == 2:
+        if plane and m.dimension == 2:
             return _add(m, plane, name, **_taken(m, name, values, plane_words(plane)))
+        assert space        # as checked
         return _add_in_space(m, space, name, **_taken(m, name, values, space_words(space)))
 
     make.__name__, make.__qualname__ = either.kind, f"Mechanism.{either.kind}"
     make.__doc__ = documentation(plane, space, list(signature.parameters))
-    make.__signature__ = signature      # type: ignore[attr-defined]
+    vars(make)["__signature__"] = signature
     return make
 
 
@@ -158,7 +159,7 @@ def _add(m: Elements, joint: type[Joint], name: Any, *, first: Any = None, secon
     return m._add(made)
 
 
-def _sides(m: Elements, joint: type[Joint], name: str, first: Any, second: Any, point: Any, at: Any) -> tuple[Any, Any]:
+def _sides(m: Any, joint: type[Joint], name: str, first: Any, second: Any, point: Any, at: Any) -> tuple[Any, Any]:
     """Points of both bodies."""
     if joint.is_of_one_body:
         point = m._point("point", point, center=True)

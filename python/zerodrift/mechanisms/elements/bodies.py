@@ -10,17 +10,17 @@ import numpy as np
 from ... import _check
 from ...errors import WrongAttribute, WrongType
 from . import columns
-from .frames import Pose
+from .frames import Pose, Pose3
 from .immutable import Fixed
 from .measures import scalar, vector
 from .numbers import AS_GIVEN, Numbers
 
 
 class MassProperties(NamedTuple):
-    """Mass in kg, moment of inertia about the centre of mass in kg m^2, and that centre in the body's frame, (2,) in m."""
+    """Mass in kg, moment of inertia about the mass centre in kg m^2, in space (3, 3), and that centre in its frame in m."""
 
     mass: float
-    inertia: float
+    inertia: Any
     com: np.ndarray
 
 
@@ -95,7 +95,9 @@ class Body(Fixed):
     what = "body"
     turns = True        # False for a particle, which has no orientation
 
-    def __init__(self, name: str, pose: Pose, mass: float, inertia: float, com: np.ndarray) -> None:
+    pose: Any           # a Pose, in space a Pose3
+
+    def __init__(self, name: str, pose: Pose | Pose3, mass: float, inertia: Any, com: np.ndarray) -> None:
         self.name, self.pose, self.mass, self.inertia, self._com = name, pose, mass, inertia, com
         self._register: Callable[[Point], Point] = _as_it_is       # replaced by the mechanism's own
 
@@ -189,6 +191,7 @@ class Link(Body):
 
     what = "link"
     has_given_length = False        # True: the drawing is a sketch
+    _inertia: Any                   # as given, or None
     position = vector("position", "Position of its start, in the drawing's axes, in m; its middle is ``link.center.position``.")
     velocity = vector("velocity", "The velocity of its start, in the drawing's axes, in m/s.")
     acceleration = vector("acceleration", "The acceleration of its start, in the drawing's axes, in m/s^2.")
@@ -220,6 +223,8 @@ class Link(Body):
 
 class _End(Point):
     """End of a link, at the link's length from its start; with the given length its drawn position is exact."""
+
+    body: Link
 
     def local_with(self, numbers: Numbers) -> np.ndarray:
         return np.array([self.body.length_with(numbers), 0.0])

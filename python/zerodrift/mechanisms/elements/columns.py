@@ -41,8 +41,6 @@ class Column:
     def __pow__(self, power: int) -> Column:
         return Column(np.array([value**power for value in self.values.tolist()]))       # NumPy's squares may differ by rounding
 
-    __hash__ = None
-
 
 def _operation(name: str, *, swapped: bool = False) -> Callable[[Column, Any], Any]:
     function = getattr(operator, name)

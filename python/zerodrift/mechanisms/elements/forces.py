@@ -163,7 +163,7 @@ class Torque(TableForce):
     @property
     def ends(self) -> tuple[Body, Body]:
         """The body of the axis, which gets the opposite moment unless it is `frame`, and the body that the moment acts on."""
-        return self.frame if self._is_alone() else self.against, self.body
+        return self.frame if self.frame and self._is_alone() else self.against, self.body
 
     @property
     def quantities(self) -> tuple[ElementQuantity, ...]:

@@ -11,7 +11,7 @@ from ..._rotations import quaternion_of, rotation_of, turn
 from ...errors import WrongValue
 
 
-def turned(angle: float, vector: np.ndarray) -> np.ndarray:
+def turned(angle: float | np.ndarray, vector: np.ndarray) -> np.ndarray:
     """Vector (2,), rotated counter-clockwise by an angle in rad."""
     c, s = np.cos(angle), np.sin(angle)
     return np.array([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]])

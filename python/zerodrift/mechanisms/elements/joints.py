@@ -207,6 +207,7 @@ class Rolling(Joint):
     """A wheel on a line, `Mechanism.rolling`."""
 
     kind, takes = "rolling", ("radius", "normal")
+    axis: np.ndarray
 
     def __init__(self, name: str, first: Point, second: Point, radius: float, normal: np.ndarray) -> None:
         super().__init__(name, first, second, axis=np.array([normal[1], -normal[0]]))

@@ -19,7 +19,7 @@ class Numbers:
     def __init__(self, changed: Mapping[str, Any] | None = None) -> None:
         self.changed = dict(changed or {})
 
-    def __call__(self, element: Any, quantity: str, given: float) -> float:
+    def __call__(self, element: Any, quantity: str, given: Any) -> float:
         return self.changed.get(f"{element.name}.{quantity}", given)
 
     def vector(self, name: str | None, quantity: str, given: np.ndarray) -> np.ndarray:

@@ -84,9 +84,6 @@ class SpaceBody(Body):
         About the centre of mass in the axes of its frame, in kg m^2.
     """
 
-    pose: Pose3
-    inertia: Any
-
     angular_velocity = vector("angular_velocity", "Its angular velocity in the drawing's axes, in rad/s.")
     angular_acceleration = vector("angular_acceleration", "The rate of `angular_velocity`, in rad/s^2.")
 

@@ -7,6 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..._gateway import Variable
+from ..._gateway.mechanisms.element_tables import three
 from ..._gateway.mechanisms.space import JointKind, joint_kinds
 from ..._rotations import AXES
 from .bodies import Point
@@ -16,6 +17,10 @@ from .numbers import AS_GIVEN, Numbers
 
 JOINTS = joint_kinds()
 DIRECTIONS = ("axis", "normal", "third")
+
+
+TORQUE = ("The moment that the first body exerts on the second through the joint, about the second's point, in the drawing's "
+          "axes, in N m; of the same parts as `force`.")
 
 
 class SpaceJoint(Joint):
@@ -46,14 +51,11 @@ class SpaceJoint(Joint):
         cls.coordinate = cls.coordinates[0] if len(cls.coordinates) == 1 else None
         for name, doc in _measures(cls.row).items():
             setattr(cls, name, scalar(name, doc))
+        vectors = PLACE if is_at_point(cls.row) else {}
         if has_torque(cls.row):
-            cls.torque = vector("torque", "The moment that the first body exerts on the second through the joint, about the "
-                                "second's point, in the drawing's axes, in N m; of the same parts as `force`.")
-            if not is_at_point(cls.row):
-                cls.first_torque = vector("first_torque", FIRST_TORQUE)
-        if is_at_point(cls.row):
-            for name, doc in PLACE.items():
-                setattr(cls, name, vector(name, doc))
+            vectors = {"torque": TORQUE, **(vectors or {"first_torque": FIRST_TORQUE})}
+        for name, doc in vectors.items():
+            setattr(cls, name, vector(name, doc))
 
     def __init__(self, name: str, first: Point, second: Point, *, frames: tuple[np.ndarray, np.ndarray],
                  length: float | None = None, damping: float = 0.0, cut: bool = False) -> None:
@@ -152,7 +154,7 @@ BY_KIND = {kind: class_of(SpaceJoint, kind, JOINTS[kind], "Space") for kind in s
 globals().update({joint.__name__: joint for joint in BY_KIND.values()})
 
 
-class SpaceRolling(BY_KIND["rolling"]):      # type: ignore[name-defined,misc]
+class SpaceRolling(BY_KIND["rolling"]):      # type: ignore[name-defined,valid-type,misc]
     """A disc, a sphere or an ellipsoid on a plane of the first body, `Mechanism.rolling`.
 
     Attributes
@@ -172,8 +174,8 @@ class SpaceRolling(BY_KIND["rolling"]):      # type: ignore[name-defined,misc]
         """Semiaxes in m, along the rows of the second body's frame."""
         if len({*self.semiaxes} - {0.0}) == 1:
             radius = numbers(self, "radius", max(self.semiaxes))
-            return tuple(radius if each else 0.0 for each in self.semiaxes)
-        return tuple(numbers(self, f"semiaxes.{axis}", each) for axis, each in zip(AXES, self.semiaxes, strict=True))
+            return three(radius if each else 0.0 for each in self.semiaxes)
+        return three(numbers(self, f"semiaxes.{axis}", each) for axis, each in zip(AXES, self.semiaxes, strict=True))
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""

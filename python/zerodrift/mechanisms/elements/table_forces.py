@@ -40,7 +40,7 @@ def is_between_points(entry: ElementKind) -> bool:
     return {quantity.kind for quantity in entry.quantities} == {"distance"}
 
 
-def paths(entry: ElementKind) -> tuple[tuple[str, str], ...]:
+def paths(entry: ElementKind) -> tuple[tuple[str, ...], ...]:
     """Paths of stiffness and damping for each marker quantity; those of angles beside lengths are torsion and torsion_damping."""
     along = ("stiffness", "damping")
     about = ("torsion", "torsion_damping") if lengths(entry) else along

@@ -40,7 +40,8 @@ class Law:
     reactions: Mapping[str, str] = MappingProxyType({})
 
     def __init__(self, what: str, given: Any, *, of: Mapping[str, Any] | None = None, parameters: Iterable[str] = ()) -> None:
-        self.what, self.constant, self.expression, self._function = what, None, None, None
+        self.what, self.constant, self.expression = what, None, None
+        self._function: Any = None
         given = recognised(given)
         bound = {name: name_of(measure, f"of[{name!r}]") for name, measure in _of(what, of).items()}
         if callable(given):

@@ -103,8 +103,8 @@ class Nonholonomic(Call):
     def check_linear(self, size: int) -> None:
         """Check that h is linear in velocities, at two of them."""
         x, one, other = (np.cos(np.arange(1.0, size + 1.0) + shift) for shift in (0.0, 0.5, 1.5))
-        slopes = [np.broadcast_to(self.at(0.3, x, rate).gradient, size) for rate in (one, other)]
-        if np.isfinite(slopes).all() and not np.allclose(*slopes, rtol=1e-9, atol=1e-12):
+        first, second = slopes = [np.broadcast_to(self.at(0.3, x, rate).gradient, size) for rate in (one, other)]
+        if np.isfinite(slopes).all() and not np.allclose(first, second, rtol=1e-9, atol=1e-12):
             raise WrongValue(f"{self.law.what} must be linear in measures of velocities, and is not", "user-function")
 
 
@@ -112,7 +112,7 @@ class Laws:
     """All user functions of a mechanism, as the core calls them."""
 
     def __init__(self) -> None:
-        self.rows: list[Call] = []
+        self.rows: list[Any] = []       # of Call
         self._compiled: list[Any] = []
 
     def add(self, row: Call) -> int:

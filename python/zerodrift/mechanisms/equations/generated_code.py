@@ -87,15 +87,14 @@ class Written:
         self._has_terms = not is_in_space or core.packing is None
         reader = _reader(laws)
         number = nodes.Numbering(reader.graph)
-        plan = (space_nodes.with_nodes(space_plans.plan_of(core), number) if is_in_space
-                else nodes.with_nodes(plan_of(core), number))
+        room, planned = (space_nodes, space_plans.plan_of) if is_in_space else (nodes, plan_of)
+        plan = room.with_nodes(planned(core), number)
         self._index = {key: len(number.values) + i for i, key in enumerate(parameters)}
         own = {key: number.new(value) for key, value in parameters.items()}
-        self._values, self._frames = np.array(number.values), (space_nodes if is_in_space else nodes).frames_of(plan)
-        self.key = kept.digest_of(_writing_code(type(reader)), repr(plan), repr(own), self._sizes, core.packing is None,
-                                  _described(laws.rows))
-        equations = space_nodes.Equations if is_in_space else nodes.Equations
-        self._code = _kept_code(self.key) or self._derive(lambda: equations(plan, reader, self._sizes, laws, own))
+        self._values, self._frames = np.array(number.values), room.frames_of(plan)
+        self.key = kept.digest_of(_writing_code(isinstance(reader, Plain)), repr(plan), repr(own), self._sizes,
+                                  core.packing is None, _described(laws.rows))
+        self._code = _kept_code(self.key) or self._derive(lambda: room.Equations(plan, reader, self._sizes, laws, own))
         self._library = shared_library.library(self._code.c_source) if self._has_terms else None
         self.is_compiled = self._library is not None or (not self._has_terms and compilers.find() is not None)
         if not self.is_compiled:
@@ -145,7 +144,8 @@ class Written:
         """System with compiled functions."""
         code = self._code
         numbers = np.concatenate([self._values, np.zeros(code.constants + (closed_form.constants if closed_form else 0) + 1)])
-        libraries, address, terms = [self._library], None, None
+        libraries: list[Any] = [self._library]
+        address = terms = None
         if self._library is not None:
             self._library.zd_symbolic_constants(ctypes.c_void_p(numbers.ctypes.data))
             evaluate = _gateway.address_of(self._library, "zd_symbolic_evaluate")
@@ -211,7 +211,7 @@ def measure_program(tables: Tables, name: str, component: int) -> tuple[Any, int
     reader = _reader(laws)
     number = nodes.Numbering(reader.graph)
     room, planned = (space_nodes, space_plans.plan_of) if isinstance(core, SpaceCore) else (nodes, plan_of)
-    plan = planned(core, [measure.index + component])
+    plan = planned(core, [measure.first + component])
     plan, own = room.with_nodes(plan, number), {key: number.new(value) for key, value in tables.parameters.items()}
     equations = room.Equations(plan, reader, (core.nq, core.nv, core.mh, core.mn), laws, own)
     value, rate = equations.readings[-1]
@@ -247,9 +247,9 @@ def _kept_code(key: str) -> Code | None:
 
 
 @cache
-def _writing_code(reader: type) -> str:
+def _writing_code(is_plain: bool) -> str:
     """Fingerprint of the generating code, including SymPy's version if it is used."""
-    version = "" if reader is Plain else metadata.version("sympy")
+    version = "" if is_plain else metadata.version("sympy")
     package = Path(__file__).parents[2]
     files = [file for room in ("symbolics", "mechanisms") for file in sorted((package / room).rglob("*.py"))]
     return kept.digest_of(version, [file.read_text(encoding="utf-8") for file in files])

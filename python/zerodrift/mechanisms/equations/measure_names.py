@@ -104,11 +104,16 @@ def checked_reading(what: str, name: str, value: Any, elements: Mapping[str, Any
     if read is None:
         owner = elements.get(name.partition(".")[0])
         known = readable(owner) if owner is not None else []
-        said = f"; of {owner.name!r} these can be given: {_closest_first(name, known)}" if known else ""
+        said = f"; of {name.partition('.')[0]!r} these can be given: {_closest_first(name, known)}" if known else ""
         raise WrongValue(f"{what} must name a measure of positions or velocities, not {name!r}{said}", "wrong-name")
     if value is not None and len(read.quantities) != np.size(value):
         raise WrongValue(f"{what}[{name!r}] must have {len(read.quantities)} components, not {np.size(value)}", "shape")
     return read
+
+
+def is_rate(name: str, elements: Mapping[str, Any]) -> bool:
+    """True if a value of a start is a rate."""
+    return checked_reading(name, name, None, elements).is_rate
 
 
 def _closest_first(name: str, known: Sequence[str]) -> str:
@@ -142,7 +147,7 @@ def quantities(element: Any) -> tuple[str, ...]:
         return ("position",)
     if isinstance(element, Joint):
         place = ("position",) if is_hinge(element.row) else ()
-        return (element.coordinate, *place) if has_coordinate(element) else place
+        return (element.coordinate, *place) if element.coordinate and has_coordinate(element) else place
     is_length = isinstance(element, Actuator) or (isinstance(element, TableForce) and has(element.row, "distance"))
     return ("length",) if is_length else ()
 

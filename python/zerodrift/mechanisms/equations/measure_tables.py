@@ -7,12 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
 from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ... import _check
 from ..._gateway.mechanisms.core import MechanismCore
 from ..._gateway.mechanisms.element_tables import OutputSpec
-from ..._gateway.mechanisms.plane import Quantity
 from ...errors import WrongValue
 from ..elements.bodies import Body, Link, Point
 from ..elements.forces import Actuator
@@ -32,7 +31,7 @@ class Position(NamedTuple):
     unit: str
     rate: str | None
     second_rate: str | None
-    quantities: Callable[[], tuple[Quantity, ...]]
+    quantities: Callable[[], tuple[Any, ...]]
 
 
 def measuring(tables: Tables, only: Collection[str] | None = None) -> MechanismCore:
@@ -45,7 +44,7 @@ def measuring(tables: Tables, only: Collection[str] | None = None) -> MechanismC
     return core
 
 
-def read(tables: Tables, only: Collection[str] | None = None) -> tuple[list[Quantity], list[OutputSpec]]:
+def read(tables: Tables, only: Collection[str] | None = None) -> tuple[list[Any], list[OutputSpec]]:
     """Marker quantities of the tables and of these measures, and the measures."""
     quantities, observed = list(tables.quantities), []
     wanted = None if only is None else {*only, *(name.rpartition(".")[0] for name in only)}
@@ -79,9 +78,8 @@ def _positions(tables: Tables, wanted: Collection[str] | None) -> Iterator[Posit
             continue
         yield _place(tables, body.name, body)
         if body.turns:
-            angle = partial(tables.angle_quantity, body)
             yield Position(f"{body.name}.angle", "rad", f"{body.name}.angular_velocity", f"{body.name}.angular_acceleration",
-                           lambda angle=angle: (angle(),))
+                           partial(_one, tables.angle_quantity, body))
             for point in (*((body.start, body.end) if isinstance(body, Link) else ()), body.center):
                 yield _place(tables, point.name, point)
     for point in tables.drawing.of(Point):
@@ -90,11 +88,10 @@ def _positions(tables: Tables, wanted: Collection[str] | None) -> Iterator[Posit
         if has_coordinate(joint):
             unit = "rad" if joint.coordinate == "angle" else "m"
             yield Position(f"{joint.name}.{joint.coordinate}", unit, f"{joint.name}.speed", f"{joint.name}.acceleration",
-                           lambda i=i: (tables.coordinate_quantity(i),))
+                           partial(_one, tables.coordinate_quantity, i))
         between = f"{joint.name}.transmission_angle"
         if (wanted is None or between in wanted) and transmission.has_one(joint, tables.joints_by_body):
-            yield Position(between, "rad", None, None,
-                           lambda joint=joint: (tables.transmission_quantity(joint),))
+            yield Position(between, "rad", None, None, partial(_one, tables.transmission_quantity, joint))
         if is_hinge(joint.row):     # without a second rate: its name is that of the angle's acceleration
             yield _place(tables, joint.name, joint.second)._replace(second_rate=None)
     yield from _lengths(tables)
@@ -118,7 +115,7 @@ def _positions_in_space(tables: SpaceTables) -> Iterator[Position]:
         for speed, coordinate in speeds(joint.row).items():
             unit = "m" if dict(joint.row.coordinates)[coordinate] == "along" else "rad"
             yield Position(f"{joint.name}.{coordinate}", unit, f"{joint.name}.{speed}", f"{joint.name}.{acceleration_of(speed)}",
-                           lambda joint=joint, coordinate=coordinate: (tables.coordinate_quantity_of(joint, coordinate),))
+                           partial(_one, tables.coordinate_quantity_of, joint, coordinate))
         if is_at_point(joint.row):
             yield _place(tables, joint.name, joint.second)._replace(second_rate=None)
     yield from _lengths(tables)
@@ -127,9 +124,13 @@ def _positions_in_space(tables: SpaceTables) -> Iterator[Position]:
 def _lengths(tables: Tables) -> Iterator[Position]:
     for actuator in tables.drawing.of(Actuator):
         yield Position(f"{actuator.name}.length", "m", f"{actuator.name}.speed", None,
-                       lambda actuator=actuator: (tables.length_quantity(actuator),))
+                       partial(_one, tables.length_quantity, actuator))
     for spring in (each for each in tables.drawing.of(TableForce) if has(each.row, "distance")):
-        yield Position(f"{spring.name}.length", "m", None, None, lambda spring=spring: (tables.length_quantity(spring),))
+        yield Position(f"{spring.name}.length", "m", None, None, partial(_one, tables.length_quantity, spring))
+
+
+def _one(of: Callable[..., Any], *arguments: Any) -> tuple[Any]:
+    return (of(*arguments),)
 
 
 def _place(tables: Tables, name: str, of: Body | Point) -> Position:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+from ..._gateway.mechanisms.element_tables import Relation
 from ...symbolics.graph.graph import Graph, Node
 from .function_calls import Laws
 
@@ -27,12 +28,15 @@ class Relations:
     laws: Laws
     t: Node
 
+    def difference(self, a: Node, b: Node) -> Node:
+        return self.graph.plus(a, self.graph.minus(b))
+
     def _of(self, quantities: Iterable[int]) -> tuple[list[Node], list[Node]]:
         """Values and rates of marker quantities."""
         readings = [self.readings[quantity] for quantity in quantities]
         return [reading.value for reading in readings], [reading.rate for reading in readings]
 
-    def _row(self, row: Any) -> Node:
+    def _row(self, row: Relation[Node]) -> Node:
         graph = self.graph
         if row.law >= 0:
             return self._law(row.law, row.quantities)

@@ -57,32 +57,34 @@ class Numbering:
         return self(vector[0], *place, "x"), self(vector[1], *place, "y")
 
 
-def with_nodes(plan: PlanePlan, number: Numbering) -> PlanePlan:
+def with_nodes(plan: PlanePlan, number: Numbering) -> PlanePlan[Node]:
     """Plan whose numbers are nodes."""
-    links = tuple(link._replace(
-        near=number.pair(link.near, link.inner), far=number.pair(link.far, i), axis=number.pair(link.axis, "axis", link.inner),
-        along=number(link.along), angle=number(link.angle), cosine=number(link.cosine), sine=number(link.sine),
-        mass=number(link.mass), inertia=number(link.inertia)) for i, link in enumerate(plan.links, 1))
-    quantities = tuple(quantity._replace(
-        point1=number.pair(quantity.point1, quantity.first), point2=number.pair(quantity.point2, quantity.second),
-        axis=number.pair(quantity.axis, "axis", quantity.first), zero=number(quantity.zero)) for quantity in plan.quantities)
+    links = tuple(Link(
+        link.hang, link.inner, link.coordinate, number.pair(link.near, link.inner), number.pair(link.far, i),
+        number.pair(link.axis, "axis", link.inner), number(link.along), number(link.angle), number(link.cosine),
+        number(link.sine), number(link.mass), number(link.inertia)) for i, link in enumerate(plan.links, 1))
+    quantities = tuple(Quantity(
+        quantity.kind, quantity.first, quantity.second, number.pair(quantity.point1, quantity.first),
+        number.pair(quantity.point2, quantity.second), number.pair(quantity.axis, "axis", quantity.first),
+        number(quantity.zero)) for quantity in plan.quantities)
     rows = tuple(row_with_nodes(row, number) for row in plan.rows)
     forces = tuple(force_with_nodes(force, number) for force in plan.forces)
     return PlanePlan(links, quantities, rows, forces, number.pair(plan.gravity))
 
 
-def frames_of(plan: PlanePlan) -> list[Any]:
+def frames_of(plan: PlanePlan[Node]) -> list[Any]:
     """Frames of joints, as `space_nodes.frames_of` gives them: in the plane there are none."""
     return []
 
 
-def row_with_nodes(row: Relation, number: Numbering) -> Relation:
-    return row._replace(coefficients=[number(factor) for factor in row.coefficients], constant=number(row.constant),
-                        slope=number(row.slope))
+def row_with_nodes(row: Relation, number: Numbering) -> Relation[Node]:
+    return Relation(row.quantities, [number(factor) for factor in row.coefficients], number(row.constant), number(row.slope),
+                    *row[4:])
 
 
-def force_with_nodes(force: GeneralizedForce, number: Numbering) -> GeneralizedForce:
-    return force._replace(stiffness=number(force.stiffness), damping=number(force.damping), value=number(force.value))
+def force_with_nodes(force: GeneralizedForce, number: Numbering) -> GeneralizedForce[Node]:
+    return GeneralizedForce(force.kind, force.quantity, number(force.stiffness), number(force.damping), number(force.value),
+                            *force[5:])
 
 
 def angle_by_sine(graph: Graph, cosine: Node) -> Node:
@@ -136,7 +138,7 @@ class Equations(Relations):
         Nodes that replace leaves of the graph; none here.
     """
 
-    def __init__(self, plan: PlanePlan, reader: Any, sizes: tuple[int, int, int, int], laws: Laws,
+    def __init__(self, plan: PlanePlan[Node], reader: Any, sizes: tuple[int, int, int, int], laws: Laws,
                  parameters: Mapping[str, Node]) -> None:
         self.plan, self.graph, self.read, self.laws, self.parameters = plan, reader.graph, reader.read, laws, parameters
         self.functions = reader     # sin, cos and floor
@@ -166,10 +168,7 @@ class Equations(Relations):
         return self.graph.plus(a[0], b[0]), self.graph.plus(a[1], b[1])
 
     def _minus(self, a: Vector, b: Vector) -> Vector:
-        return tuple(self.difference(x, y) for x, y in zip(a, b, strict=True))
-
-    def difference(self, a: Node, b: Node) -> Node:
-        return self.graph.plus(a, self.graph.minus(b))
+        return self.difference(a[0], b[0]), self.difference(a[1], b[1])
 
     def _rotated(self, cosine: Node, sine: Node, a: Vector) -> Vector:
         times = self.graph.times
@@ -185,7 +184,7 @@ class Equations(Relations):
 
     # ---- the tree ----
 
-    def _frame(self, link: Link) -> Frame:
+    def _frame(self, link: Link[Node]) -> Frame:
         graph, k, inner = self.graph, link.coordinate, self.frames[link.inner]
         turn = graph.zero, graph.one, graph.zero        # of particles
         if link.hang in (plans.FREE, plans.TURNING):
@@ -205,7 +204,7 @@ class Equations(Relations):
 
     # ---- marker quantities ----
 
-    def _reading(self, quantity: Quantity) -> Reading:
+    def _reading(self, quantity: Quantity[Node]) -> Reading:
         graph, first, second = self.graph, self.frames[quantity.first], self.frames[quantity.second]
         if quantity.kind == "angle":
             return self._read(self.difference(second.angle, first.angle), quantity.zero)

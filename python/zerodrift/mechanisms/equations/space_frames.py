@@ -6,10 +6,11 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
 
+from ..._gateway.mechanisms.element_tables import Triple, three
 from ..._gateway.mechanisms.space_plans import Link, Way
 from ...symbolics.graph.graph import Graph, Node
 
-Vector = tuple[Node, Node, Node]
+Vector = Triple[Node]
 
 
 class Vectors:
@@ -17,20 +18,20 @@ class Vectors:
 
     def __init__(self, graph: Graph) -> None:
         self.graph = graph
-        self.none: Vector = (graph.zero,) * 3
+        self.none: Vector = graph.zero, graph.zero, graph.zero
 
     def plus(self, *vectors: Vector) -> Vector:
-        return tuple(self.graph.plus(*components) for components in zip(*vectors, strict=True))
+        return three(self.graph.plus(*components) for components in zip(*vectors, strict=True))
 
     def scaled(self, factor: Node, a: Vector) -> Vector:
-        return tuple(self.graph.times(factor, each) for each in a)
+        return three(self.graph.times(factor, each) for each in a)
 
     def minus(self, a: Vector, b: Vector) -> Vector:
-        return self.plus(a, tuple(map(self.graph.minus, b)))
+        return self.plus(a, three(map(self.graph.minus, b)))
 
     def cross(self, a: Vector, b: Vector) -> Vector:
         times, plus, minus = self.graph.times, self.graph.plus, self.graph.minus
-        return tuple(plus(times(a[i], b[k]), minus(times(a[k], b[i]))) for i, k in ((1, 2), (2, 0), (0, 1)))
+        return three(plus(times(a[i], b[k]), minus(times(a[k], b[i]))) for i, k in ((1, 2), (2, 0), (0, 1)))
 
 
 HALF = Fraction(1, 2)
@@ -40,7 +41,7 @@ class Body(NamedTuple):
     """Position and rotation of a body; a body without orientation has no axes."""
 
     at: Vector
-    axes: tuple[Vector, Vector, Vector] | None
+    axes: Triple[Vector] | None
     spin: Vector
     own_spin: Vector        # the same in its own axes
 
@@ -68,7 +69,7 @@ class Frames:
         Expressions of the leaves of the graph.
     """
 
-    def __init__(self, links: Sequence[Link], graph: Graph, functions: Any, nq: int, nv: int) -> None:
+    def __init__(self, links: Sequence[Link[Node]], graph: Graph, functions: Any, nq: int, nv: int) -> None:
         self.graph, self.of, self._links, self._functions = graph, Vectors(graph), links, functions
         self.p, self.v = ([graph.leaf(kind, i) for i in range(size)] for kind, size in (("p", nq), ("v", nv)))
         self.values: dict[Node, Node] = {}
@@ -82,7 +83,7 @@ class Frames:
             self._place(i)
 
     def rates(self, a: Vector) -> Vector:
-        return tuple(map(self.rate_of, a))
+        return three(map(self.rate_of, a))
 
     def point(self, body: int, local: Vector) -> Vector:
         """Position of a body's point, from the drawing's origin."""
@@ -120,7 +121,7 @@ class Frames:
         found = [(axis, factor) for axis, factor in zip(axes, along, strict=True) if factor is not zero]
         if len(found) == 1:
             return self.of.scaled(found[0][1], found[0][0])
-        vector = tuple(map(self._part, self._combined(found))) if found else self.of.none
+        vector = three(map(self._part, self._combined(found))) if found else self.of.none
         self._turn(vector, spin)
         return vector
 
@@ -136,16 +137,16 @@ class Frames:
         link = self._links[i - 1]
         if link.ways is not None:
             self._place(link.inner)
-        self.bodies[i] = self._free(link) if link.ways is None else self._hanging(i, link)
+        self.bodies[i] = self._free(link) if link.ways is None else self._hanging(i, link, link.ways)
 
-    def _free(self, link: Link) -> Body:
-        at = tuple(self.p[link.p:link.p + 3])
+    def _free(self, link: Link[Node]) -> Body:
+        at = three(self.p[link.p:link.p + 3])
         for k in range(3):
             self._moves(link.p + k, link.v + k)
         if not link.turns:
             return Body(at, None, self.of.none, self.of.none)
-        own = tuple(self.v[link.v + 3:link.v + 6])
-        axes = tuple(tuple(map(self._part, axis)) for axis in self._attitude(link.p + 3, link.v + 3))
+        own = three(self.v[link.v + 3:link.v + 6])
+        axes = three(three(map(self._part, axis)) for axis in self._attitude(link.p + 3, link.v + 3))
         spin = self._combined(zip(axes, own, strict=True))
         for axis in axes:
             self._turn(axis, spin)
@@ -156,7 +157,7 @@ class Frames:
         self.rate_of.know(self.p[p], self.v[v])
         self.A[p][v] = self.graph.one
 
-    def _attitude(self, p: int, v: int) -> tuple[Vector, Vector, Vector]:
+    def _attitude(self, p: int, v: int) -> Triple[Vector]:
         """Axes rotated by a quaternion, and its rows of A: half of the product with its angular velocity."""
         graph, (w, x, y, z) = self.graph, self.p[p:p + 4]
         for i, row in enumerate(((x, y, z), (w, z, y), (z, w, x), (y, x, w))):
@@ -171,21 +172,21 @@ class Frames:
                 (entry((x, y, 2), (w, z, -2)), entry((w, w, 1), (x, x, -1), (y, y, 1), (z, z, -1)), entry((y, z, 2), (w, x, 2))),
                 (entry((x, z, 2), (w, y, 2)), entry((y, z, 2), (w, x, -2)), entry((w, w, 1), (x, x, -1), (y, y, -1), (z, z, 1))))
 
-    def _hanging(self, i: int, link: Link) -> Body:
+    def _hanging(self, i: int, link: Link[Node], ways: Iterable[Way[Node]]) -> Body:
         """Body beyond a joint: a frame moves along the joint's degrees of freedom, from the inner body's point to the outer's."""
         inner = self.bodies[link.inner]
         frame = [self.turned(link.inner, axis) for axis in link.near_axes]
         at, spin = self.of.plus(inner.at, self.turned(link.inner, link.near)), inner.spin
-        for way in link.ways:
+        for way in ways:
             at, spin = self._go(way, frame, at, spin)
         if not link.turns:
             return Body(self.of.minus(at, link.far), None, self.of.none, self.of.none)
-        axes = tuple(self._sum_along(frame, own, spin) for own in zip(*link.far_axes, strict=True))
-        own_spin = tuple(self.graph.dot(axis, spin) for axis in axes)
+        axes = three(self._sum_along(frame, own, spin) for own in zip(*link.far_axes, strict=True))
+        own_spin = three(self.graph.dot(axis, spin) for axis in axes)
         body = self.bodies[i] = Body(at, axes, spin, own_spin)
         return body._replace(at=self.of.minus(at, self.turned(i, link.far)))
 
-    def _go(self, way: Way, frame: list[Vector], at: Vector, spin: Vector) -> tuple[Vector, Vector]:
+    def _go(self, way: Way[Node], frame: list[Vector], at: Vector, spin: Vector) -> tuple[Vector, Vector]:
         """Move the frame along one degree of freedom; returns its origin and its angular velocity."""
         graph, of, e = self.graph, self.of, self.of.scaled(self.graph.number(way.sign), frame[way.direction])
         if way.kind == "swings":
@@ -199,21 +200,21 @@ class Frames:
             self._turn_frame(way, frame, spin)
         return at, spin
 
-    def _swing(self, way: Way, frame: list[Vector], spin: Vector) -> Vector:
+    def _swing(self, way: Way[Node], frame: list[Vector], spin: Vector) -> Vector:
         """Rotate the frame by a quaternion; returns its angular velocity in the rotated axes."""
-        turned = [tuple(map(self._part, axis)) for axis in self._attitude(way.p, way.v)]
-        frame[:] = [tuple(map(self._part, self._combined(zip(frame, axis, strict=True)))) for axis in turned]
+        turned = [three(map(self._part, axis)) for axis in self._attitude(way.p, way.v)]
+        frame[:] = [three(map(self._part, self._combined(zip(frame, axis, strict=True)))) for axis in turned]
         spin = self.of.plus(spin, self._combined(zip(frame, self.v[way.v:way.v + 3], strict=True)))
         for axis in frame:
             self._turn(axis, spin)
         return spin
 
-    def _turn_frame(self, way: Way, frame: list[Vector], spin: Vector) -> None:
+    def _turn_frame(self, way: Way[Node], frame: list[Vector], spin: Vector) -> None:
         """Rotate the frame about one of its directions."""
         graph, of, i, k = self.graph, self.of, (way.direction + 1) % 3, (way.direction + 2) % 3
         c, s = (graph.call(function, self.p[way.p]) for function in (self._functions.cos, self._functions.sin))
         s, a, b = graph.sum([(s, way.sign)]), frame[i], frame[k]
         turned = of.plus(of.scaled(c, a), of.scaled(s, b)), of.minus(of.scaled(c, b), of.scaled(s, a))
         for place, value in zip((i, k), turned, strict=True):
-            frame[place] = tuple(map(self._part, value))
+            frame[place] = three(map(self._part, value))
             self._turn(frame[place], spin)

@@ -17,8 +17,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from math import pi
 from typing import Any, NamedTuple
 
+from ..._gateway.mechanisms.element_tables import three
 from ..._gateway.mechanisms.space import Quantity
-from ..._gateway.mechanisms.space_plans import Angle, Link, SpacePlan
+from ..._gateway.mechanisms.space_plans import Angle, Link, SpacePlan, Way
 from ...symbolics.graph.gradient import Gradient
 from ...symbolics.graph.graph import Node
 from . import nodes
@@ -30,39 +31,39 @@ XYZ = "x", "y", "z"
 HALF = nodes.HALF
 
 
-def with_nodes(plan: SpacePlan, number: nodes.Numbering) -> SpacePlan:
+def with_nodes(plan: SpacePlan, number: nodes.Numbering) -> SpacePlan[Node]:
     """Plan whose numbers are nodes."""
     def point(vector: Sequence[float], body: int) -> Vector:
-        return tuple(number(each, "point", body, axis) for each, axis in zip(vector, XYZ, strict=True))
+        return three(number(each, "point", body, axis) for each, axis in zip(vector, XYZ, strict=True))
 
     def direction(vector: Sequence[float], body: int) -> Vector:
-        return tuple(number(each, "direction", body) for each in vector)
+        return three(number(each, "direction", body) for each in vector)
 
-    def hung(link: Link, i: int) -> Link:
-        link = link._replace(mass=number(link.mass), inertia=tuple(map(number, link.inertia)))
+    def hung(link: Link, i: int) -> Link[Node]:
+        place = link.inner, link.turns, link.p, link.v, number(link.mass), three(map(number, link.inertia))
         if link.ways is None:
-            return link
-        ways = tuple(way._replace(zero=number(way.zero), length=number(way.length)) for way in link.ways)
-        return link._replace(ways=ways, near=point(link.near, link.inner), far=point(link.far, i),
-                             near_axes=tuple(direction(each, link.inner) for each in link.near_axes),
-                             far_axes=tuple(direction(each, i) for each in link.far_axes))
+            return Link(*place, None)
+        ways = tuple(Way(*way[:3], number(way.zero), number(way.length), way.p, way.v) for way in link.ways)
+        return Link(*place, ways, point(link.near, link.inner), point(link.far, i),
+                    three(direction(each, link.inner) for each in link.near_axes),
+                    three(direction(each, i) for each in link.far_axes))
 
-    def read(quantity: Quantity) -> Quantity:
-        shape = tuple(tuple(number(each, "shape", quantity.second) for each in row) for row in quantity.shape)
-        return quantity._replace(
-            point1=point(quantity.point1, quantity.first), point2=point(quantity.point2, quantity.second),
-            a=direction(quantity.a, quantity.first), o=direction(quantity.o, quantity.first),
-            b=direction(quantity.b, quantity.second), shape=shape, zero=number(quantity.zero))
+    def read(quantity: Quantity) -> Quantity[Node]:
+        first, second = quantity.first, quantity.second
+        shape = three(three(number(each, "shape", second) for each in row) for row in quantity.shape)
+        return Quantity(quantity.kind, first, second, point(quantity.point1, first), point(quantity.point2, second),
+                        direction(quantity.a, first), direction(quantity.o, first), direction(quantity.b, second), shape,
+                        number(quantity.zero), quantity.counted)
 
-    return plan._replace(
-        links=tuple(hung(link, i) for i, link in enumerate(plan.links, 1)), quantities=tuple(map(read, plan.quantities)),
-        rows=tuple(nodes.row_with_nodes(row, number) for row in plan.rows),
-        forces=tuple(nodes.force_with_nodes(force, number) for force in plan.forces),
-        angles=tuple(Angle(read(of), direction(axis, of.first), place) for of, axis, place in plan.angles),
-        gravity=tuple(map(number, plan.gravity)))
+    return SpacePlan(
+        tuple(hung(link, i) for i, link in enumerate(plan.links, 1)), tuple(map(read, plan.quantities)),
+        tuple(nodes.row_with_nodes(row, number) for row in plan.rows),
+        tuple(nodes.force_with_nodes(force, number) for force in plan.forces),
+        tuple(Angle(read(of), direction(axis, of.first), place) for of, axis, place in plan.angles),
+        plan.followers, three(map(number, plan.gravity)), plan.has_rates)
 
 
-def frames_of(plan: SpacePlan) -> list[list[list[tuple[int, int]]]]:
+def frames_of(plan: SpacePlan[Node]) -> list[list[list[tuple[int, int]]]]:
     """Frames (3, 3) of the joints of the tree whose numbers are nodes: of each entry the parameter and its sign, or -1 and the
     entry.
     """
@@ -86,7 +87,7 @@ class Equations(Relations):
         Nodes that replace leaves of the graph.
     """
 
-    def __init__(self, plan: SpacePlan, reader: Any, sizes: tuple[int, int, int, int], laws: Laws,
+    def __init__(self, plan: SpacePlan[Node], reader: Any, sizes: tuple[int, int, int, int], laws: Laws,
                  parameters: Mapping[str, Node]) -> None:
         self.plan, self.graph, self.read, self.laws, self.parameters = plan, reader.graph, reader.read, laws, parameters
         self.functions = reader     # sin, cos, floor and atan2
@@ -98,9 +99,6 @@ class Equations(Relations):
         self._by_velocity = Gradient(self.graph, self.v)
         self.readings = [self._reading(quantity) for quantity in plan.quantities]
         self._follow()
-
-    def difference(self, a: Node, b: Node) -> Node:
-        return self.graph.plus(a, self.graph.minus(b))
 
     # ---- marker quantities ----
 
@@ -117,7 +115,7 @@ class Equations(Relations):
         slopes = self._by_velocity(rate)
         return [slopes.get(v, self.graph.zero) for v in self.v]
 
-    def _reading(self, quantity: Quantity) -> nodes.Reading:
+    def _reading(self, quantity: Quantity[Node]) -> nodes.Reading:
         graph, of, first, second = self.graph, self.of, self.bodies[quantity.first], self.bodies[quantity.second]
         Q = self.frames.point(quantity.second, quantity.point2)
         a = self.frames.turned(quantity.first, quantity.a)
@@ -146,7 +144,7 @@ class Equations(Relations):
     def _read(self, value: Node, zero: Node) -> nodes.Reading:
         return nodes.Reading(self.difference(value, zero), self.rate_of(value))
 
-    def _angle(self, quantity: Quantity, a: Vector) -> nodes.Reading:
+    def _angle(self, quantity: Quantity[Node], a: Vector) -> nodes.Reading:
         """Angle of a joint, with the number of turns that brings it nearest to the coordinate that counts them."""
         graph = self.graph
         counter = self.plan.angles[quantity.counted - 1].place if quantity.counted else None
@@ -161,7 +159,7 @@ class Equations(Relations):
         turns = graph.call(self.functions.floor, graph.sum([(away, 1 / (2 * pi)), (graph.one, HALF)]))
         return reading._replace(value=graph.sum([(reading.value, 1), (turns, 2 * pi)]))
 
-    def _rotation(self, quantity: Quantity, a: Vector) -> Node:
+    def _rotation(self, quantity: Quantity[Node], a: Vector) -> Node:
         """Component of the rotation vector theta u / sin theta, with u the axial vector of the rotation matrix."""
         graph, of, one, zero = self.graph, self.of, self.graph.one, self.graph.zero
         axes = [self.frames.turned(quantity.first, e) for e in ((one, zero, zero), (zero, one, zero), (zero, zero, one))]
@@ -170,12 +168,12 @@ class Equations(Relations):
         cosine = graph.sum([*((graph.dot(*pair), HALF) for pair in zip(axes, moved, strict=True)), (one, -HALF)])
         return graph.sum([(graph.times(nodes.angle_by_sine(graph, cosine), graph.dot(a, u)), HALF)])
 
-    def _contact(self, quantity: Quantity, a: Vector, apart: Vector) -> nodes.Reading:
+    def _contact(self, quantity: Quantity[Node], a: Vector, apart: Vector) -> nodes.Reading:
         """Contact point: opposite to o from Q by S o over the root of o . S o, with S the shape in the second body's axes."""
         graph, of, first, second = self.graph, self.of, self.bodies[quantity.first], self.bodies[quantity.second]
         o = self.frames.turned(quantity.first, quantity.o)
-        own = o if second.axes is None else tuple(graph.dot(axis, o) for axis in second.axes)
-        S = tuple(graph.dot(row, own) for row in quantity.shape)
+        own = o if second.axes is None else three(graph.dot(axis, o) for axis in second.axes)
+        S = three(graph.dot(row, own) for row in quantity.shape)
         shaped = S if second.axes is None else of.plus(*(of.scaled(x, axis) for x, axis in zip(S, second.axes, strict=True)))
         reach = graph.product([(graph.dot(own, S), HALF)])
         way = of.scaled(graph.minus(graph.product([(reach, -1)])), shaped)
@@ -214,17 +212,17 @@ class Equations(Relations):
         M = [upper.get((min(i, j), max(i, j)), graph.zero) for i in range(n) for j in range(n)]
         return M, [graph.plus(*terms) for terms in bias]
 
-    def _moving(self) -> Iterable[tuple[Node, Any]]:
+    def _moving(self) -> Iterable[tuple[Node, Moving]]:
         """Inertia of each velocity of a mass centre or about an own axis, with the generalized force needed for vdot = 0."""
         graph = self.graph
         for i, link in enumerate(self.plan.links, 1):
             body = self.bodies[i]
             for speed in self._rates(body.at):
                 yield link.mass, Moving(speed, graph.times(link.mass, self.rate_of(speed)))
-            if not link.turns:
+            if body.axes is None:
                 continue
             changes = self._rates(body.spin) if link.ways is not None else self.of.none
-            momentum = tuple(map(graph.times, link.inertia, body.own_spin))
+            momentum = three(map(graph.times, link.inertia, body.own_spin))
             gyroscopic = self.of.cross(body.own_spin, momentum)
             for k in range(3):
                 change = graph.dot(body.axes[k], changes)
@@ -232,7 +230,8 @@ class Equations(Relations):
 
     def _forces(self) -> dict[str, list[Node]]:
         """f, V and the power of forces without a potential."""
-        graph, f = self.graph, [[] for _ in self.v]
+        graph = self.graph
+        f: list[list[Node]] = [[] for _ in self.v]
         V, power = [], []
         for i, link in enumerate(self.plan.links, 1):
             at = self.bodies[i].at

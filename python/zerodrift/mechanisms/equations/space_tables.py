@@ -9,13 +9,14 @@ import numpy as np
 
 from ..._gateway import Variable
 from ..._gateway.mechanisms import space
-from ..._gateway.mechanisms.element_tables import ElementQuantity
+from ..._gateway.mechanisms.element_tables import ElementQuantity, three
 from ..._gateway.mechanisms.space import AS_DRAWN, Quantity, SpaceCore
 from ..._gateway.mechanisms.space_tree import SpaceTreeCore
 from ..._rotations import AXES, quaternion_of
 from ..elements.bodies import Body, Particle, Point
 from ..elements.drawing import Drawing
 from ..elements.frames import triple
+from ..elements.joints import Joint
 from ..elements.numbers import Numbers
 from ..elements.space_bodies import SpaceInertias
 from ..elements.space_joints import SpaceJoint
@@ -28,9 +29,8 @@ from .tree import inboard_joints
 class SpaceTables(Tables):
     """Tables of a mechanism in space, from which the core makes its system; built as in the plane, see `Tables`."""
 
-    joints: list[SpaceJoint]    # type: ignore[assignment]
-    inertias: SpaceInertias     # type: ignore[assignment]
-    quantities: list[Quantity]         # type: ignore[assignment]
+    joints: list[SpaceJoint]
+    inertias: SpaceInertias
 
     entries: Any = space
 
@@ -86,30 +86,30 @@ class SpaceTables(Tables):
     def _direction(self, body: Body, local: np.ndarray) -> Any:
         return triple(self.inertias.direction(body, local))
 
-    def _joint(self, joint: SpaceJoint) -> space.Joint:     # type: ignore[override]
+    def _joint(self, joint: SpaceJoint) -> space.Joint:
         """Entry of the table of joints."""
         (first, point1), (second, point2) = self.place(joint.first), self.place(joint.second)
-        frames = (tuple(self._direction(body, row) for row in frame)
-                  for body, frame in zip(joint.bodies, joint.frames, strict=True))
+        frame1, frame2 = (three(self._direction(body, row) for row in frame)
+                          for body, frame in zip(joint.bodies, joint.frames, strict=True))
         along = joint.offset_as_drawn(self.numbers) if joint.row.axes else 0.0
-        return space.Joint(joint.row.number, first, second, point1, point2, *frames, triple(joint.semiaxes_with(self.numbers)),
-                           along, joint.length_with(self.numbers))
+        return space.Joint(joint.row.number, first, second, point1, point2, frame1, frame2,
+                           triple(joint.semiaxes_with(self.numbers)), along, joint.length_with(self.numbers))
 
     # ---- marker quantities ----
 
-    def _reading_of(self, name: str) -> Quantity:     # type: ignore[override]
+    def _reading_of(self, name: str) -> Quantity:
         owner, _, measured = name.rpartition(".")
         if measured in AXES:
             owner, _, vector = owner.rpartition(".")
             element, _, end = owner.partition(".")
-            of = self.drawing.elements[element]
+            of: Any = self.drawing.elements[element]
             of = of.second if isinstance(of, SpaceJoint) else getattr(of, end) if end else of
-            found = self.place_quantities(of) if vector == "position" else self.spin_quantities(of)
+            found: tuple[Quantity, ...] = self.place_quantities(of) if vector == "position" else self.spin_quantities(of)
             return found[AXES.index(measured)]
         of = self.drawing.elements[owner]
         return self.coordinate_quantity_of(of, measured) if isinstance(of, SpaceJoint) else self.length_quantity(of)
 
-    def place_quantities(self, of: Body | Point) -> tuple[Quantity, ...]:     # type: ignore[override]
+    def place_quantities(self, of: Body | Point) -> tuple[Quantity, ...]:
         """Marker quantities x, y and z of a point, or of the origin of a body's frame."""
         if isinstance(of, Body):
             of = of.attachment if isinstance(of, Particle) and of.attachment else Point(of, np.zeros(3))
@@ -125,17 +125,17 @@ class SpaceTables(Tables):
         own = [self._direction(body, axis) for axis in np.eye(3)]
         return tuple(Quantity("cosine", 0, self.number[body.name], a=drawn, b=axis) for drawn in AS_DRAWN for axis in own)
 
-    def coordinate_quantity_of(self, joint: SpaceJoint, coordinate: str) -> Quantity:
+    def coordinate_quantity_of(self, joint: Joint, coordinate: str) -> Quantity:
         """Marker quantity of a joint's coordinate."""
         number = self.joint_number[joint.name]
         angles = sum(len(before.angles) for before in self.joints[:number])
         return space.coordinate_quantity(self.joint_rows[number], joint.coordinates.index(coordinate), angles)
 
-    def _element_quantities(self, element: TableForce) -> list[Quantity]:     # type: ignore[override]
+    def _element_quantities(self, element: TableForce) -> list[Quantity]:
         if element.joint is not None:
             known = self.coordinate_quantity_of(element.joint, "angle")
             return [known._replace(zero=element.zero(each, self.numbers)) for each in element.quantities]
-        ends, bodies = list(map(self._end, element.ends)), [getattr(end, "body", end) for end in element.ends]
+        ends, bodies = list(map(self._end, element.ends)), list[Any](getattr(end, "body", end) for end in element.ends)
         near, far = ([self._direction(body, row) for row in (() if frame is None else frame)]
                      for body, frame in zip(bodies, element.frames or ((), ()), strict=True))
         return [self._along(each, ends, near, far)._replace(zero=element.zero(each, self.numbers)) for each in element.quantities]
@@ -146,7 +146,7 @@ class SpaceTables(Tables):
         if quantity.kind == "angle":
             return Quantity("angle", first, second, a=near[a], o=near[a - 2], b=far[quantity.of_second])
         if quantity.kind == "rotation":
-            shape = tuple(map(triple, np.transpose(near) @ far))
+            shape = three(map(triple, np.transpose(near) @ far))
             return Quantity("rotation", first, second, a=near[a], shape=shape)
         places = {} if quantity.kind in ROTATIONS else {"point1": point1, "point2": point2}
         return Quantity(quantity.kind, first, second, **places, **({"a": near[a]} if near else {}))

@@ -8,7 +8,7 @@ from ..._gateway import Variable
 from ..._rotations import AXES
 from ..elements.bodies import Body
 from ..elements.space_joints import SpaceJoint, speeds
-from .tree import Edge
+from .tree import Edge, ends
 
 QUATERNION = ("e0", "e1", "e2", "e3")
 SIZES = {"slides": 1, "turns": 1, "advances": 1, "swings": 3}      # numbers of velocities
@@ -16,14 +16,15 @@ SIZES = {"slides": 1, "turns": 1, "advances": 1, "swings": 3}      # numbers of 
 
 def edges(joints: Sequence[SpaceJoint], number: dict[str, int], *, with_cut: bool = False) -> list[Edge]:
     """Joints that may be in the tree, optionally with those that the user has cut."""
-    return [Edge(i, *(number[body.name] for body in joint.bodies), freedoms(joint)) for i, joint in enumerate(joints)
+    return [Edge(i, *ends(joint, number), freedoms(joint)) for i, joint in enumerate(joints)
             if joint.row.freedoms is not None and (with_cut or not joint.cut)]
 
 
 def freedoms(joint: SpaceJoint) -> tuple[int, int]:
     """Numbers of velocities with which the joint is the inboard joint of its first body, and of its second."""
-    return tuple(sum(SIZES[each.kind] for each in joint.row.freedoms if body.turns or each.kind != "swings")
-                 for body in joint.bodies)
+    first, second = (sum(SIZES[each.kind] for each in joint.row.freedoms or () if body.turns or each.kind != "swings")
+                     for body in joint.bodies)
+    return first, second
 
 
 def positions(body: Body, inboard: SpaceJoint | None) -> Iterator[Variable]:
@@ -32,7 +33,7 @@ def positions(body: Body, inboard: SpaceJoint | None) -> Iterator[Variable]:
         yield from (Variable(f"{body.name}.{axis}", "m") for axis in AXES)
         yield from (Variable(f"{body.name}.{each}", "") for each in (QUATERNION if body.turns else ()))
         return
-    for each in inboard.row.freedoms:
+    for each in inboard.row.freedoms or ():
         if each.kind != "swings":
             yield Variable(f"{inboard.name}.{each.name}", "m" if each.kind == "slides" else "rad")
         elif body.turns:
@@ -46,9 +47,9 @@ def rates(body: Body, inboard: SpaceJoint | None) -> Iterator[Variable]:
         yield from (Variable(f"{body.name}.{axis}_spin", "rad/s") for axis in (AXES if body.turns else ()))
         return
     speed_of = {coordinate: speed for speed, coordinate in speeds(inboard.row).items()}
-    for each in inboard.row.freedoms:
+    for each in inboard.row.freedoms or ():
         if each.kind != "swings":
-            speed = speed_of.get(each.name, f"{each.name}_dot")
+            speed = speed_of.get(str(each.name), f"{each.name}_dot")
             yield Variable(f"{inboard.name}.{speed}", "m/s" if each.kind == "slides" else "rad/s")
         elif body.turns:
             yield from (Variable(f"{inboard.name}.{axis}_spin", "rad/s") for axis in AXES)

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..._gateway import Variable
 from ..._gateway.mechanisms import plane as entries
+from ..._gateway.mechanisms.core import MechanismCore
 from ..._gateway.mechanisms.element_tables import OutputSpec
 from ..._gateway.mechanisms.plane import PlaneCore, Quantity
 from ..elements import columns
@@ -23,8 +24,8 @@ from ..elements.numbers import AS_GIVEN, Numbers
 from ..elements.space_joints import SpaceJoint
 from ..elements.table_forces import UNITS, TableForce, lengths, paths
 from . import function_calls, transmission
-from .measure_names import has_coordinate, reading
-from .tree import Edge, inboard_joints
+from .measure_names import checked_reading, has_coordinate
+from .tree import Edge, ends, inboard_joints
 
 ORIGIN = np.zeros(2)
 
@@ -50,7 +51,7 @@ class Tables:
         self.parts, self.joints, self.inertias = drawing.parts(), drawing.of(Joint), self._masses()
         self.number = {"ground": 0, **{body.name: i for i, body in enumerate(self.parts, 1)}}
         self.joint_number = {joint.name: i for i, joint in enumerate(self.joints)}
-        self.quantities: list[Quantity] = []
+        self.quantities: list[Any] = []     # Quantity, in space that of space
         self.quantity_number: dict[str, int] = {}
         self.relations: list[entries.Relation] = []
         self.relation_names: list[str] = []
@@ -70,7 +71,7 @@ class Tables:
     def _masses(self) -> Any:
         return Inertias(self.drawing, self.numbers)
 
-    def core(self, quantities: Sequence[Quantity] | None = None, observed: Sequence[OutputSpec] = ()) -> PlaneCore:
+    def core(self, quantities: Sequence[Any] | None = None, observed: Sequence[OutputSpec] = ()) -> MechanismCore:
         """Core system of the tables, with the measures `observed` and their marker quantities; left out: without measures."""
         laws = self.laws if self.laws.rows else None
         return self._kind_of_core()(self.written(quantities, observed), laws, laws_know_time=self.laws.know_time)
@@ -78,7 +79,7 @@ class Tables:
     def _kind_of_core(self) -> Any:
         return PlaneCore
 
-    def written(self, quantities: Sequence[Quantity] | None = None, observed: Sequence[OutputSpec] = ()) -> entries.Tables:
+    def written(self, quantities: Sequence[Any] | None = None, observed: Sequence[OutputSpec] = ()) -> entries.Tables:
         """Tables for the core."""
         bodies = [self.entries.Body(*self._inertia(body), not body.turns, inboard)
                   for body, inboard in zip(self.parts, self.inboard, strict=True)]
@@ -91,7 +92,8 @@ class Tables:
 
     def reactions(self, observed: Sequence[OutputSpec]) -> dict[str, tuple[int, int]]:
         """Index and component of the measures, if they are there, of reactions and accelerations that user functions read."""
-        dimension, found = self.drawing.dimension, {}
+        dimension = self.drawing.dimension
+        found: dict[str, tuple[int, int]] = {}
         names = self.drawing.reactions()
         for i, each in enumerate(observed if names else ()):
             size = each.components(dimension)
@@ -137,7 +139,7 @@ class Tables:
 
     def tree(self, *, with_cut: bool = False) -> list[int]:
         """Inboard joint of each body, optionally counting joints that the user has cut."""
-        edges = [Edge(i, *(self.number[body.name] for body in joint.bodies), _freedoms(joint))
+        edges = [Edge(i, *ends(joint, self.number), _freedoms(joint))
                  for i, joint in enumerate(self.joints) if joint.row.inboard and (with_cut or not joint.cut)]
         weights = [(float(body.turns), self.inertias.of[body.name][0]) for body in self.parts]
         return inboard_joints(len(self.parts), edges, weights)
@@ -145,7 +147,7 @@ class Tables:
     def place(self, point: Point) -> tuple[int, tuple[float, float]]:
         return self.number[point.body.name], self.inertias.local(point, self.numbers)
 
-    def _joint(self, joint: Joint) -> entries.Joint:
+    def _joint(self, joint: Any) -> Any:
         """Entry of the table of joints."""
         (first, point1), (second, point2) = self.place(joint.first), self.place(joint.second)
         axis = (1.0, 0.0) if joint.axis is None else _pair(joint.axis)
@@ -167,7 +169,7 @@ class Tables:
         known = self.quantity_number.get(name)
         return self._quantity(name, self._reading_of(name)) if known is None else known
 
-    def _reading_of(self, name: str) -> Quantity:
+    def _reading_of(self, name: str) -> Any:
         owner, _, quantity = name.rpartition(".")
         if quantity in ("x", "y"):
             owner, _, _ = owner.rpartition(".")
@@ -182,7 +184,7 @@ class Tables:
             return self.coordinate_quantity(self.joint_number[owner])
         return self.length_quantity(of) if isinstance(of, TableForce | Actuator) else self.angle_quantity(of)
 
-    def place_quantities(self, of: Body | Point) -> tuple[Quantity, Quantity]:
+    def place_quantities(self, of: Body | Point) -> tuple[Any, ...]:
         """Marker quantities x and y of a point, or of the origin of a body's frame."""
         if isinstance(of, Body):
             of = of.attachment if isinstance(of, Particle) and of.attachment else Point(of, ORIGIN)
@@ -208,7 +210,7 @@ class Tables:
         """Joints of each body, by its name."""
         return transmission.joints_by_body(self.drawing.elements)
 
-    def length_quantity(self, spring: TableForce | Actuator) -> Quantity:
+    def length_quantity(self, spring: TableForce | Actuator) -> Any:
         """Marker quantity of the length of a spring or an actuator."""
         (first, point1), (second, point2) = self.place(spring.first), self.place(spring.second)
         return self.entries.Quantity("distance", first, second, point1, point2)
@@ -227,7 +229,7 @@ class Tables:
         """Marker quantities of a user function; for each of its measures the index among them and whether the rate is meant."""
         quantities, picks = list(first), []
         for name in names:
-            read = reading(name, self.drawing.elements)
+            read = checked_reading(name, name, None, self.drawing.elements)
             quantity = self._quantity_of(read.quantities[0])
             if quantity not in quantities:
                 quantities.append(quantity)
@@ -286,8 +288,9 @@ class Tables:
             return
         quantities, picks = self._inputs(coupling.of)
         nonholonomic = coupling.kind == "nonholonomic"
-        row = (function_calls.Nonholonomic if nonholonomic else function_calls.Holonomic)(coupling.law, picks, self.parameters)
-        if nonholonomic:
+        kind = function_calls.Nonholonomic if nonholonomic else function_calls.Holonomic
+        row: function_calls.Call = kind(coupling.law, picks, self.parameters)
+        if isinstance(row, function_calls.Nonholonomic):
             row.check_linear(len(quantities))
         self._relation(coupling.name, entries.Relation(quantities, nonholonomic=nonholonomic, law=self.laws.add(row)))
         self._observe_coupling(coupling, len(quantities))
@@ -329,13 +332,13 @@ class Tables:
             self.forces.append(entries.GeneralizedForce("spring", number, stiffness, damping, joint=joint))
         self.observed += self._efforts(element, index)
 
-    def _element_quantities(self, element: TableForce) -> list[Quantity]:
+    def _element_quantities(self, element: TableForce) -> list[Any]:
         (first, point1), (second, point2) = map(self._end, element.ends)
         axis = (1.0, 0.0) if element.axis is None else _pair(element.axis)
         return [Quantity(each.kind, first, second, point1, point2, axis, element.zero(each, self.numbers))
                 for each in element.quantities]
 
-    def _end(self, end: Body | Point) -> tuple[int, tuple[float, ...]]:
+    def _end(self, end: Body | Point) -> tuple[int, Any]:
         """Number of a body, and the point of it that a marker quantity belongs to."""
         return (self.number[end.name], (0.0,) * self.drawing.dimension) if isinstance(end, Body) else self.place(end)
 
@@ -354,7 +357,7 @@ class Tables:
 def _freedoms(joint: Joint) -> tuple[int, int]:
     """Numbers of coordinates with which the joint is the inboard joint of its first body, and of its second."""
     if joint.row.inboard == "turns":
-        return tuple(int(body.turns) for body in joint.bodies)
+        return int(joint.bodies[0].turns), int(joint.bodies[1].turns)
     return (0, 0) if joint.row.inboard == "fixed" else (1, 1)
 
 
@@ -362,14 +365,14 @@ def _pair(vector: np.ndarray) -> tuple[float, float]:
     return float(vector[0]), float(vector[1])
 
 
-def constraint_names(tables: Tables, core: PlaneCore) -> tuple[Variable, ...]:
+def constraint_names(tables: Tables, core: MechanismCore) -> tuple[Variable, ...]:
     """Names and units of the constraints: the joint and its marker quantity, or the drive or coupling."""
     named = []
     for row in core.rows:
         if row.owner == "relation":
-            named.append(Variable(tables.relation_names[row.index], ""))
+            named.append(Variable(tables.relation_names[row.number], ""))
             continue
-        joint = tables.joints[row.index]
+        joint = tables.joints[row.number]
         if isinstance(joint, SpaceJoint):
             named.append(joint.row_named(row.component))
             continue

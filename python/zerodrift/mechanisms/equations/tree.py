@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
 
 
 class Edge(NamedTuple):
@@ -14,6 +14,12 @@ class Edge(NamedTuple):
     first: int
     second: int
     freedoms: tuple[int, int]
+
+
+def ends(joint: Any, number: Mapping[str, int]) -> tuple[int, int]:
+    """Numbers of the two bodies of a joint."""
+    first, second = joint.bodies
+    return number[first.name], number[second.name]
 
 
 def inboard_joints(bodies: int, edges: Sequence[Edge], weights: Sequence[tuple[float, ...]]) -> list[int]:
@@ -27,7 +33,7 @@ def inboard_joints(bodies: int, edges: Sequence[Edge], weights: Sequence[tuple[f
     for edge in edges:
         around[edge.first].append(edge)
         around[edge.second].append(edge)
-    inboard, reached, frontier = [-1] * (bodies + 1), [False] * (bodies + 1), []
+    inboard, reached, frontier = [-1] * (bodies + 1), [False] * (bodies + 1), list[tuple[int, ...]]()
     for roots in (lambda: [0], lambda: sorted(range(1, bodies + 1), key=lambda body: weights[body - 1], reverse=True)):
         for root in roots() if not all(reached) else []:
             if not reached[root]:
@@ -57,7 +63,7 @@ def loop(inboard: Sequence[int], ends: Sequence[tuple[int, int]], joint: int) ->
     """Bodies and joints of the loop that a joint closes: `ends` has the two bodies of every joint."""
     first, second = (_way_down(inboard, ends, body) for body in ends[joint])
     shared = {body for body, _ in first} & {body for body, _ in second}
-    bodies, joints = [], [joint]
+    bodies, joints = list[int](), [joint]
     for way, order in ((first, -1), (second, 1)):
         part = [step for step in way if step[0] not in shared]
         bodies = bodies + [body for body, _ in part] if order == 1 else [body for body, _ in part][::-1]

@@ -102,7 +102,7 @@ def from_json(written: Any, what: str, depth: int = 0) -> Any:
     else:
         read = [from_json(part, what, depth + 1) for part in parts]
     if word == "^" and len(read) == 2:
-        _check_power(*read, what)
+        _check_power(read[0], read[1], what)
     try:
         return _operations()[word](*read)
     except Exception as error:      # classes of SymPy raise different errors

@@ -153,7 +153,7 @@ def _by_row(joint: type[Joint]) -> Callable[..., None]:
     words, needed = inspect.signature(verb(joint)).parameters, inspect.Parameter.empty
     optional = {word: words[word].default for word in joint.takes
                 if word in words and (words[word].default is None or word == "cut")}
-    make.__signature__ = inspect.Signature([        # type: ignore[attr-defined]
+    vars(make)["__signature__"] = inspect.Signature([
         inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, default=optional.get(word, needed))
         for word in ("first", "second", *joint.takes)])
     return make
@@ -235,7 +235,7 @@ def _table_force(force: type[TableForce], dimension: int) -> Callable[..., None]
 
     place = ("frames" if dimension == 3 else "axis",) if entry.axes else ()
     wanted = (*sides(force), *place, *(parameters(entry) or ("value",)))
-    make.__signature__ = inspect.Signature([        # type: ignore[attr-defined]
+    vars(make)["__signature__"] = inspect.Signature([
         inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, default=None if word == "length" else NEEDED) for word in wanted])
     return make
 
@@ -250,4 +250,4 @@ MADE: dict[str, Callable[..., None]] = {
     "constraint": _constraint, "nonholonomic": _nonholonomic, "cam": _cam,
     "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque, **_table_forces(2),
     **{kind: _by_row(joint) for kind, joint in PLANE.items()}}
-MADE_IN_SPACE = MADE | IN_SPACE | _table_forces(3)
+MADE_IN_SPACE = {**MADE, **IN_SPACE, **_table_forces(3)}

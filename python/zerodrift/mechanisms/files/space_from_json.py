@@ -65,11 +65,11 @@ def frames_from_json(first: Point, second: Point, given: Any) -> tuple[np.ndarra
 def _joint(kind: str) -> Callable[..., None]:
     def make(m: Any, name: str, *, first: Any, second: Any, frames: Any, length: Any = None, damping: Any = 0.0,
              cut: Any = False) -> None:
-        sides = m._different(name, *(m._point("a side", place_from_json(m, side)) for side in (first, second)))
-        both = frames_from_json(*sides, frames)
+        one, other = m._different(name, *(m._point("a side", place_from_json(m, side)) for side in (first, second)))
+        both = frames_from_json(one, other, frames)
         if advances(BY_KIND[kind].row) and not _check.number("length", length):
             raise WrongValue("length must not be 0: it is the pitch", "unreadable-file")
-        made: SpaceJoint = m._fasten(kind, m._new_name(name, "joint"), *sides, *(both[0][:2] @ sides[0].body.pose.rotation.T),
+        made: SpaceJoint = m._fasten(kind, m._new_name(name, "joint"), one, other, *(both[0][:2] @ one.body.pose.rotation.T),
                                      length=None if length is None else _check.number("length", length), damping=damping)
         amend(made, frames=both, cut=_check.instance("cut", cut, bool, "True or False"))
     return make

@@ -92,14 +92,14 @@ def _linear(coupling: Coupling, drawing: Drawing) -> dict[str, Any]:
     return {"first": first, "second": second, "ratio": coupling.ratio}
 
 
-def _coupling(coupling: Coupling, drawing: Drawing) -> dict[str, Any]:
+def _coupling(coupling: Any, drawing: Drawing) -> dict[str, Any]:
     law = coupling.law
     if isinstance(law._function, _Sum):
         return {"sum": dict(zip(coupling.of, law._function.coefficients, strict=True))}
     return {"law": law_to_json(law)}
 
 
-def _cam(coupling: Coupling, drawing: Drawing) -> dict[str, Any]:
+def _cam(coupling: Any, drawing: Drawing) -> dict[str, Any]:
     profile = coupling.law._function.profile if isinstance(coupling.law._function, _Follows) else None
     if isinstance(profile, PeriodicSpline):
         written: Any = {"angles": profile.angles.tolist(), "values": profile.values.tolist()}

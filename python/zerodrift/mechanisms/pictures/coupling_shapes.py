@@ -93,7 +93,7 @@ class Couplings:
         """Pitch circle, and the rack that touches it where both have the same velocity."""
         pinion, slider = self._joint(rack, 0), self._joint(rack, 1)
         ratio = self.parts.numbers(rack, "ratio", rack.ratio)
-        centre, axis = posed.at(pinion.second), posed.direction(slider.bodies[0], slider.axis)
+        centre, axis = posed.at(pinion.second), posed.axis(slider)
         away = -np.sign(ratio) * np.array([-axis[1], axis[0]])
         moved = posed.displacement(slider) - slider.offset_as_drawn(self.parts.numbers)
         middle, half = centre + abs(ratio) * away + moved * axis, (1.5 * abs(ratio) + abs(moved)) * axis
@@ -133,14 +133,17 @@ def profile(parts: Parts, coupling: Coupling) -> Cam | None:
     """Cam of a coupling whose follower is a joint of the body that supports the cam; None for other followers."""
     elements, numbers = parts.drawing.elements, parts.numbers
     joint, follower = (elements.get(measure.rpartition(".")[0]) for measure in coupling.of)
-    if not isinstance(follower, Joint) or joint.bodies[0] is not follower.bodies[0]:
+    law = coupling.law
+    if law is None or not isinstance(joint, Joint) or not isinstance(follower, Joint):
+        return None
+    if joint.bodies[0] is not follower.bodies[0]:
         return None
     roller = _roller(parts, follower, joint.second.drawn_with(numbers))
     if roller is None:
         return None
     angles = np.linspace(0, 2 * np.pi, ANGLES, endpoint=False)
     known = {name: numbers.changed.get(name, value) for name, value in parts.drawing.parameters.items()}
-    moves = np.array([-float(coupling.law.value(0.0, (angle, 0.0), known)) for angle in angles])
+    moves = np.array([-float(law.value(0.0, (angle, 0.0), known)) for angle in angles])
     centre, start = joint.first.drawn_with(numbers), roller.drawn_with(numbers)
     if follower.coordinate == "angle":
         pivot = follower.first.drawn_with(numbers)

@@ -80,7 +80,7 @@ def _motor(motor: Motor, posed: Posed) -> Shape:
     place = posed.at(joint.second)
     if joint.coordinate == "angle":
         return Shape("motor", place[None], motor.name, sign)
-    axis = posed.direction(joint.bodies[0], joint.axis)
+    axis = posed.axis(joint)
     is_on_ground = joint.bodies[0] is posed.parts.drawing.ground
     side = posed.parts.side(joint) if is_on_ground else np.array([-axis[1], axis[0]])
     return Shape("drive", np.array([place, axis, side]), motor.name, sign)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ..elements.bodies import Body, Link, Particle, Point
@@ -14,7 +16,7 @@ APART = 1e-9        # of the drawing's size: smaller distances count as zero
 
 def outline(drawing: Drawing, numbers: Numbers, poses: np.ndarray) -> np.ndarray:
     """Points (n, 2) in m to be joined by lines, NaN between bodies, with the mass centres at poses (bodies, 3)."""
-    inertias, lines, held = Inertias(drawing, numbers), [], attached(drawing, numbers)
+    inertias, lines, held = Inertias(drawing, numbers), list[Any](), attached(drawing, numbers)
     for body, pose in zip(drawing.parts(), poses, strict=True):
         lines += [*_line(body, pose, around(held[body.name], numbers), numbers, inertias), (np.nan, np.nan)]
     for point in held["ground"]:

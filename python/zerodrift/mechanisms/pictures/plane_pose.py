@@ -9,7 +9,7 @@ import numpy as np
 from ..elements.bodies import Body, Particle, Point
 from ..elements.drawing import Drawing, Inertias
 from ..elements.frames import Pose, turned
-from ..elements.joints import Joint
+from ..elements.joints import Joint, Rolling
 from ..elements.numbers import Numbers
 from .plane_outline import APART, around, attached
 
@@ -111,7 +111,12 @@ class Posed:
         """Direction (2,) in the drawing, from one in a body's frame."""
         return self.pose(body.name).direction(local)
 
-    def contact(self, joint: Joint) -> np.ndarray:
+    def axis(self, joint: Joint) -> np.ndarray:
+        """Direction (2,) of the axis of a joint that has one, in its first body."""
+        assert joint.axis is not None
+        return self.direction(joint.bodies[0], joint.axis)
+
+    def contact(self, joint: Rolling) -> np.ndarray:
         """Contact point of a wheel with its line, (2,)."""
         down = np.array([joint.axis[1], -joint.axis[0]])
         return self.at(joint.second) + joint.length_with(self.parts.numbers) * self.direction(joint.bodies[0], down)
@@ -122,11 +127,11 @@ class Posed:
 
     def displacement(self, joint: Joint) -> float:
         """Displacement of a joint's second point from its first along the axis."""
-        return float((self.at(joint.second) - self.at(joint.first)) @ self.direction(joint.bodies[0], joint.axis))
+        return float((self.at(joint.second) - self.at(joint.first)) @ self.axis(joint))
 
     def track(self, joint: Joint, ranges: dict[str, tuple[float, float]]) -> np.ndarray:
         """Ends (2, 2) of the range of a joint's second point along its axis; the line passes through that point."""
-        axis, now, place = self.direction(joint.bodies[0], joint.axis), self.displacement(joint), self.at(joint.second)
+        axis, now, place = self.axis(joint), self.displacement(joint), self.at(joint.second)
         low, high = ranges[joint.name]
         return np.array([place + (low - now) * axis, place + (high - now) * axis])
 

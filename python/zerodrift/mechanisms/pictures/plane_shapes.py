@@ -87,7 +87,7 @@ class Sketch:
             if kind in ("rod", "coupled"):
                 yield Shape(kind, np.array([posed.at(joint.first), second]), joint.name)
             elif kind == "wheel":
-                axis, radius = posed.direction(joint.bodies[0], joint.axis), joint.length_with(self.parts.numbers)
+                axis, radius = posed.axis(joint), joint.length_with(self.parts.numbers)
                 down = radius * np.array([axis[1], -axis[0]])
                 yield Shape("road", np.array([*(posed.track(joint, ranges) + down), axis]), joint.name)
                 yield Shape("wheel", np.array([second, posed.spoke(joint)]), joint.name, radius)
@@ -118,7 +118,7 @@ def _kind(joint: Joint) -> str:
 
 def _slider(joint: Joint, posed: Posed, ranges: Ranges, lifted: float) -> Iterator[Shape]:
     """Block on the ground, in a groove of a body if it may turn, otherwise around a rod; shifted if it would cover others."""
-    axis = posed.direction(joint.bodies[0], joint.axis)
+    axis = posed.axis(joint)
     second, track = posed.at(joint.second) + lifted * axis, posed.track(joint, ranges) + lifted * axis
     if joint.bodies[0] is posed.parts.drawing.ground:
         yield Shape("rail", np.array([*track, posed.parts.side(joint)]), joint.name)
@@ -133,7 +133,7 @@ def _slider(joint: Joint, posed: Posed, ranges: Ranges, lifted: float) -> Iterat
 
 def _held_by_ground(parts: Parts) -> list[Point]:
     """Points of the ground about which a body or a rod turns, each position once."""
-    ground, held = parts.drawing.ground, {}
+    ground, held = parts.drawing.ground, dict[tuple[float, ...], Point]()
     for joint in parts.drawing.of(Joint):
         if "distance" in quantities(joint) or (is_pinned(joint) and joint.axis is None):
             for side in (joint.first, joint.second):

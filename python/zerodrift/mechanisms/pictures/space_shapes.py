@@ -77,7 +77,8 @@ class SpaceSketch:
             yield Shape("dot", _moved(ORIGIN, at), body.name)
             return
         for particle in self.carried.get(body.name, ()):
-            yield Shape("dot", _moved(self.local(particle.attachment)[None], at), particle.name)
+            if particle.attachment:
+                yield Shape("dot", _moved(self.local(particle.attachment)[None], at), particle.name)
         places = self.held[body.name]
         if body.name in self.rolling and len(places) < 2:
             return

@@ -56,16 +56,18 @@ def _of_mass(drawing: Drawing, numbers: Numbers, can_be_held: bool) -> str | Non
 
 def jumping(drawing: Drawing, watching: Watching, t: float, p: np.ndarray, v: np.ndarray, velocity: int) -> str:
     """Names of the forces and torques that jump where a velocity changes its sign, or the coordinate of its number some value."""
-    states = [np.repeat(each[None], 4 * len(BESIDE), axis=0) for each in (p, v)]
-    for state, half in zip(states, np.split(np.arange(len(states[0])), 2), strict=True):
+    count = 4 * len(BESIDE)
+    at_p, at_v = states = [np.repeat(each[None], count, axis=0) for each in (p, v)]
+    for state, half in zip(states, np.split(np.arange(count), 2), strict=True):
         aside = BESIDE * (1 + np.abs(state).max())
         state[half, min(velocity, state.shape[1] - 1)] += np.concatenate([aside, -aside])
-    others = np.zeros((len(states[0]), watching.core.nv)), np.zeros((len(states[0]), watching.core.m))
     jumps: dict[str, float] = {}
     for element in drawing.of(WITH_LAWS):
         for place in (watching.find(f"{element.name}.{quantity}") for quantity in ("force", "torque")):
             if place:
-                values = watching.core.measure(place.number, np.full(len(states[0]), t), *states, *others)
+                core = watching.core
+                values = core.measure(place.number, np.full(count, t), at_p, at_v, np.zeros((count, core.nv)),
+                                      np.zeros((count, core.m)))
                 jumps[element.name] = max(_jump(values), jumps.get(element.name, 0.0))
     largest = max(jumps.values(), default=0.0)
     return " or ".join(repr(name) for name, jump in jumps.items() if jump > TAKES_PART * largest)

@@ -29,6 +29,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..equations.tables import Tables
+from ..equations.tree import ends
 
 # Weights of parts_of_joint() and parts_of_absolute(), in the plane and in space
 JOINT = {2: (710.0, 5.0, 3.7, 360.0, 240.0, 44.0, 400.0, 0.0, 960.0),
@@ -147,7 +148,7 @@ def _loops(tables: Tables) -> list[tuple[int, tuple[int, int]]]:
 
 def _ends(tables: Tables) -> list[tuple[int, int]]:
     """Bodies of each joint, by number."""
-    return [tuple(tables.number[body.name] for body in joint.bodies) for joint in tables.joints]
+    return [ends(joint, tables.number) for joint in tables.joints]
 
 
 def _depths(tables: Tables) -> list[int]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import functools
 import os
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 
 from ..._gateway.mechanisms.assembly import CoreAssembly
-from ..._gateway.mechanisms.core import MechanismCore
 from ...errors import WrongValue, ZerodriftError, sentence
 from ...symbolics.compile import compilers
 from ...symbolics.compile.closed_form_library import NO_COMPILER
@@ -39,10 +39,11 @@ class Reported(BaseSystem):
     _drawing: Drawing
     _numbers: Numbers
     _tables: Tables
-    _started_tables: Tables             # with the initial positions of drives of constant speed
-    _interpreted: MechanismCore         # of these
+    _started_tables: Any                # with the initial positions of drives of constant speed
+    _interpreted: Any                   # core of these
     _start: Starting
-    _is_written_out: bool
+    _is_written_out: Any
+    start_at: Any
 
     def _check_written(self) -> None: ...
 
@@ -84,8 +85,8 @@ class Reported(BaseSystem):
         """Advice for a singular start, or None."""
         if isinstance(self._tables, SpaceTables) and "follow" in sentence(error):
             tables, assembly, p = self._start.closed(0.0)
-            reason = space_advice.at_start(tables, assembly.core, assembly.t, p, self.name)
-            if reason:
+            if isinstance(tables, SpaceTables) and (
+                    reason := space_advice.at_start(tables, assembly.core, assembly.t, p, self.name)):
                 return reason
         return advice.at_start(sentence(error), self._start, self.constraints)
 
@@ -106,13 +107,12 @@ class Reported(BaseSystem):
 
     def _advice_on_failure(self, t: float, p: np.ndarray) -> str | None:
         """Known cause of a failure at p in space: a disc lying flat, or shafts at a right angle."""
-        if not isinstance(self._tables, SpaceTables):
-            return None
-        return space_advice.on_failure(self._started_tables, self._interpreted, t, p)
+        tables = self._started_tables
+        return space_advice.on_failure(tables, self._interpreted, t, p) if isinstance(tables, SpaceTables) else None
 
     def _beyond_reach(self, t: float, p: np.ndarray, ahead: float) -> str:
         """Sentence on the drive, and the dead point to which it moves the mechanism within a time ahead."""
-        core = self._measuring
+        core = self._watching.core
         core.names_of_constraints(self)
         driven = {each.name: driven_coordinate(each) for each in self._drawing.of((Motor, Actuator))}
         measures = [self._watching.known.get(driven.get(each.name), (-1, 0))[0] for each in self.constraints[:self.mh]]

@@ -25,7 +25,7 @@ def moving_unsaid(start: Starting, tables: Tables, assembly: Assembly, p: np.nda
     for i, measure in enumerate(core.measures):
         body, unit = bodies.get(measure.name), assembly.length if measure.unit == "m/s" else 1.0
         found = core.measure_at(i, assembly.t, p, v)
-        if body not in moving or np.abs(found["row"] @ free).max() <= MIN_RATE * unit:
+        if body is None or body not in moving or np.abs(found["row"] @ free).max() <= MIN_RATE * unit:
             continue
         if np.abs(found["value"]).max() > MIN_RATE * unit * size:
             said[f"{measure.name} = {_numbers(found['value'])} {measure.unit}"] = body

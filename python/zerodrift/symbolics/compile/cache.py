@@ -86,8 +86,8 @@ def drop(name: str) -> None:
 def place(name: str, data: bytes) -> Iterator[str | None]:
     """Path under which the system's loader finds the verified file, if its content is `content`; otherwise None."""
     with _usable() as folder:
-        where = None if folder is None else folder.seen_by_loader()
-        yield f"{where}/{name}" if where is not None and folder.read(name) == data else None
+        where = folder and folder.seen_by_loader()
+        yield f"{where}/{name}" if folder and where and folder.read(name) == data else None
 
 
 # ---- what JSON can say ----

@@ -27,7 +27,7 @@ class ClosedFormFunctions:
     so the source depends on these alone. The source is written before the object is pickled, as the other process may lack SymPy.
     """
 
-    def __init__(self, program: dict[str, Any] | str, sizes: tuple[int, int, int, int], values: np.ndarray,
+    def __init__(self, program: Any, sizes: tuple[int, int, int, int], values: np.ndarray,
                  p0: np.ndarray | None, is_length: np.ndarray, offset: int, data: str = "data", embeds: bool = False) -> None:
         self._definition = program, sizes, values, p0, is_length
         self._embeds = embeds       # True: for formulations in independent velocities

@@ -20,7 +20,7 @@ class Program:
     """Program for a `CWriter`: all of its operations are needed, and none is stored between calls."""
 
     def __init__(self, lowering: Lowering, results: Sequence[int]) -> None:
-        self.lowering, self.outputs, self.stored = lowering, {"results": list(results)}, {}
+        self.lowering, self.outputs, self.stored = lowering, {"results": list(results)}, dict[int, int]()
         self.users = [True] * len(lowering.operations)
 
 

@@ -31,16 +31,16 @@ class Joint(Elimination):
 
     def _reduced_mass(self) -> ReducedMass:
         """D'^T M D'"""
-        self.share: int | None = None
+        self.share = -1     # not yet known
         mass = super()._reduced_mass()
-        if self.share is None:      # nothing is free
+        if self.share < 0:      # nothing is free
             self.share = self.do.over(self.do.one, self.delta)
         return mass
 
     def _inverted(self, determinant: int) -> int:
         """That of a block of D'^T M D', and with the first of them 1 / delta."""
         do = self.do
-        if self.share is not None:
+        if self.share >= 0:
             return super()._inverted(determinant)
         self.both = both = do.over(do.one, do.times(self.delta, determinant))
         self.share = do.times(both, determinant)

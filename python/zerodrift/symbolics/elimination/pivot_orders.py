@@ -80,7 +80,7 @@ def _for_places(C: np.ndarray) -> list[Order]:
 
 def _for_sets(C: np.ndarray) -> list[Order]:
     """An order for each of the sets of dependent velocities that formulations choose most often, that of the start first."""
-    sets = [tuple(np.flatnonzero(row)) for row in _dependent(C / _largest(C[:1]))]
+    sets = [tuple(np.flatnonzero(row).tolist()) for row in _dependent(C / _largest(C[:1]))]
     found = [(chosen, C[[other == chosen for other in sets]]) for chosen, _ in Counter(sets).most_common()]
     orders: list[Order] = []
     for chosen, where in sorted(found, key=lambda each: each[0] != sets[0]):

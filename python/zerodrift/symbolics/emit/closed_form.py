@@ -11,7 +11,7 @@ from ..elimination import pivot_orders
 from ..elimination.cramer import elimination
 from ..elimination.steps import Elimination
 from ..graph.lowering import Lowering
-from ..graph.plain_functions import NAMED, Function
+from ..graph.plain_functions import NAMED, Function, Plain
 from ..graph.reemit import restored
 from . import closed_form_writer
 from .closed_form_writer import Bounded
@@ -68,7 +68,7 @@ def write(program: dict[str, Any], sizes: tuple[int, int, int, int], parameters:
 
     They are for formulations in dependent velocities, or in independent ones where that is among `embeds`.
     """
-    lowering = Bounded(None)
+    lowering = Bounded(Plain().graph)
     terms = restored(lowering, program["operations"], program["terms"], _function)
     eliminations, functions = [], []
     for embedding in embeds:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from typing import Any
 
 from ..elimination.steps import Elimination, Order, Unwritten
 from ..graph.graph import FIXED
@@ -36,7 +37,7 @@ class Bounded(Lowering):
 
     most = 8 * MAX_OPERATIONS      # of all orders together, and of what no function needs
 
-    def emit(self, code, *arguments):
+    def emit(self, code: str, *arguments: Any) -> int:
         if len(self.operations) > self.most:
             raise Unwritten(TOO_LARGE)
         return super().emit(code, *arguments)
@@ -56,9 +57,9 @@ class _Program:
         for number in self.needed(self.outputs):
             self.users[number] = True
 
-    def needed(self, names: object) -> list[int]:
+    def needed(self, names: Iterable[str]) -> list[int]:
         """Operations that these outputs depend on, in order, except stored ones and the operands of these."""
-        found, waiting = set(), [number for name in names for number in self.outputs[name]]
+        found, waiting = set[int](), [number for name in names for number in self.outputs[name]]
         while waiting:
             number = waiting.pop()
             if number in found:
@@ -170,8 +171,8 @@ def _whole(head: list[str], body: list[str]) -> list[str]:
 def _optional(program: _Program, writer: LaneWriter, done: list[int]) -> list[str]:
     """Statements that store optional outputs, each inside a check of its pointer."""
     body = []
-    for names in OPTIONAL:
-        names = [name for name in names if program.outputs.get(name)]
+    for group in OPTIONAL:
+        names = [name for name in group if program.outputs.get(name)]
         if names:
             more = _statements(writer, _without(program.needed(names), done))
             entries = [line if len(names) == 1 else f"if ({name}) {line}"

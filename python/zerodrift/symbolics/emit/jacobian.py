@@ -101,7 +101,7 @@ class _Slopes(Writer):
             lines += [f"right[{i}] = -({' + '.join(row) or '0.0'});" for i, row in enumerate(rows)]
             lines += [f"zd_series_solve({size}, G, right, x);",
                       f"for (int i = 0; i < {n}; i++) {self._at(f'({self.nq} + i)', leaf)} = x[i];"]
-        return lines + self._of_power(leaf, any(rows))
+        return lines + self._slope_of_power(leaf, any(rows))
 
     def _at(self, row: str | int, leaf: Leaf) -> str:
         return f"J[{row} * {self.nq + self.nv} + {leaf[1] if leaf[0] == 'p' else self.nq + leaf[1]}]"
@@ -131,7 +131,7 @@ class _Slopes(Writer):
             lines += [f"{self._at(i, leaf)} = {' + '.join(parts)};"] if parts else []
         return lines
 
-    def _of_power(self, leaf: Leaf, is_solved: bool) -> list[str]:
+    def _slope_of_power(self, leaf: Leaf, is_solved: bool) -> list[str]:
         """Derivative of the power in (28): of forces, and of moving constraints with their multipliers."""
         parts = self._products(leaf, ("power", 0, "1.0"), *(("Phi_t", k, f"lambda[{k}]") for k in range(self.m)))
         moving = [(k, self.entry("Phi_t", k)) for k in range(self.m)] if is_solved else []

@@ -48,7 +48,8 @@ class LaneWriter(CWriter):
         if self._uses[number] == 1 and len(text) < LONGEST:
             self.names[number] = text
             if operation.code == "*":
-                self._factors[number] = tuple(unwrapped(self.value(factor)) for factor in operation.arguments)
+                a, b = (unwrapped(self.value(factor)) for factor in operation.arguments)
+                self._factors[number] = a, b
             return []
         self.names[number] = name
         return [f"{CONDITION if operation.code in CONDITIONS else REAL}{name} = {unwrapped(text)};"]

@@ -9,7 +9,6 @@ from functools import cache
 from typing import Any
 
 from ..._gateway import TERMS
-from ..graph.blocks import Blocks
 from ..graph.lowering import Operation
 from ..graph.plain_functions import Function
 
@@ -29,7 +28,10 @@ class Writer:
     state = case = ""               # patterns: of an entry of p or v, and of one of several cases
     words: dict[str, str] = {}      # what is called otherwise than in `Operation`
 
-    def __init__(self, blocks: Blocks) -> None:
+    number: Any                     # function: text of a number
+
+    def __init__(self, blocks: Any) -> None:
+        """Program of a schedule, `Blocks`, or of one function."""
         self.blocks, self.operations = blocks, blocks.lowering.operations
         self.names: dict[int, str] = {}
         self.turned: dict[int, str] = {}        # sines and cosines that are computed already, and what they are called
@@ -57,7 +59,7 @@ class Writer:
 
     def statements(self, numbers: list[int], name: Callable[[int], str], declare: str) -> list[str]:
         """Assignments of the operations of a block that are not written in place."""
-        lines = []
+        lines: list[str] = []
         for number in self.ordered(numbers, lines):
             text = self.turned.get(number) or self.expression(self.operations[number])
             stored = number in self.blocks.stored
@@ -165,7 +167,7 @@ class CWriter(Writer):
     def ordered(self, numbers: list[int], lines: list[str]) -> Iterable[int]:
         """Operations of a block in order; sines and cosines are postponed until needed and then computed together."""
         while numbers:
-            turns, later, waiting = [], [], set()
+            turns, later, waiting = [], [], set[int]()
             for number in numbers:
                 operation = self.operations[number]
                 if not waiting.isdisjoint(self.blocks.lowering.operands(operation)):

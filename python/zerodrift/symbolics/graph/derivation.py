@@ -19,7 +19,7 @@ from dataclasses import dataclass, field
 
 from ...errors import WrongValue
 from .gradient import Gradient, Hessian, Slopes
-from .graph import MOVING, Graph, Node
+from .graph import MOVING, Derivative, Graph, Node
 
 Matrix = list[list[Node]]
 
@@ -56,17 +56,18 @@ class Derivation:
     def terms(self) -> dict[str, list[Node]]:
         """Nodes of A, M, d, f, Phi, C, Phi_t, xi, V and power, by name; without optional terms that vanish identically."""
         given, graph = self.given, self.graph
-        M, d = self._of_kinetic_energy() if given.mass is None else (given.mass, given.bias or [])
+        kinetic = given.kinetic
+        M, d = (given.mass or [], given.bias or []) if kinetic is None else self._of_kinetic_energy(kinetic)
         terms = {"A": _flat(given.A or []), "M": _flat(M), "d": d, "f": self._force(), **self._constraints()}
         if given.potential is not None:
-            terms |= {"V": [given.potential], "power": [self._power(M, d)]}
+            terms |= {"V": [given.potential], "power": [self._power(given.potential, M, d)]}
         always = ("M", "Phi", "C", "xi", "V")
         return {name: nodes for name, nodes in terms.items()
                 if nodes and (name in always or any(node is not graph.zero for node in nodes))}
 
-    def _of_kinetic_energy(self) -> tuple[Matrix, list[Node]]:
+    def _of_kinetic_energy(self, kinetic: Node) -> tuple[Matrix, list[Node]]:
         graph, A = self.graph, self.given.A
-        T = graph.multiplied_out(self.given.kinetic)
+        T = graph.multiplied_out(kinetic)
         by_rate = Gradient(graph, self.rate)
         momentum = self._listed(by_rate(T), self.rate)
         second = Hessian(graph, by_rate, T)
@@ -88,7 +89,7 @@ class Derivation:
         M = [[upper[min(i, j), max(i, j)] for j in range(self.given.nv)] for i in range(self.given.nv)]
         return M, [graph.dot(column, map(at_v, d)) for column in columns]
 
-    def _derivative_at_constant_v(self):
+    def _derivative_at_constant_v(self) -> Derivative:
         """D of nodes that depend on rates: the derivative along the motion at constant v."""
         graph = self.graph
         direction = {self.t: graph.one, **dict(zip(self.p, self.rate, strict=True))}
@@ -133,21 +134,21 @@ class Derivation:
         """Gradient as a dense list."""
         return [slopes.get(leaf, self.graph.zero) for leaf in leaves]
 
-    def _power(self, M: Matrix, d: Sequence[Node]) -> Node:
+    def _power(self, potential: Node, M: Matrix, d: Sequence[Node]) -> Node:
         graph, given = self.graph, self.given
-        power = [graph.derivative_along({self.t: graph.one})(given.potential)]
+        power = [graph.derivative_along({self.t: graph.one})(potential)]
         if given.force:
             power.append(graph.dot(given.force, self.v))
-        if given.mass is None:
-            power.append(self._rheonomic_power())
+        if given.kinetic is not None:
+            power.append(self._rheonomic_power(given.kinetic))
         else:       # v^T M v / 2 changes by what M does, and d need not be of the kind that balances it
             Mdot = [[self.moving(entry) for entry in row] for row in M]
             half = graph.dot(self.v, [graph.dot(row, self.v) for row in Mdot])
             power += [graph.sum([(half, 0.5)]), graph.minus(graph.dot(self.v, d)) if d else graph.zero]
         return graph.plus(*power)
 
-    def _rheonomic_power(self) -> Node:
-        graph, T = self.graph, self.given.kinetic
+    def _rheonomic_power(self, T: Node) -> Node:
+        graph = self.graph
         at_rest = graph.substitution(dict.fromkeys(self.rate, graph.zero))(T)
         by_time = graph.derivative_along({self.t: graph.one})
         at_velocity = graph.substitution(dict(zip(self.rate, self.pdot, strict=True)))

@@ -8,7 +8,7 @@ that no square is differentiated.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from fractions import Fraction
 
 from .graph import Graph, Node, Number
@@ -45,20 +45,15 @@ class Gradient:
                     parts[leaf].append((slope, factor))
         elif node.kind == "product":
             for base, exponent in node.content:
-                self._by_chain_rule(parts, base, exponent, lambda base=base: graph.product([*node.content, (base, -1)]))
+                if slopes := self(base):
+                    _add(parts, slopes, exponent, graph, graph.product([*node.content, (base, -1)]))
         elif node.kind == "call":
             function, arguments = node.content
             for k, argument in enumerate(arguments):
-                self._by_chain_rule(parts, argument, 1, lambda k=k: graph.slope(function, k, arguments))
+                if slopes := self(argument):
+                    _add(parts, slopes, 1, graph, graph.slope(function, k, arguments))
         slopes = {leaf: graph.sum(terms) for leaf, terms in parts.items()}
         return {leaf: slope for leaf, slope in slopes.items() if slope is not graph.zero}
-
-    def _by_chain_rule(self, parts: dict[Node, Terms], inner: Node, factor: Number, outer: Callable[[], Node]) -> None:
-        """Add the derivatives of `inner` times the outer derivative, which is formed only if there are any."""
-        slopes = self(inner)
-        by_inner = outer() if slopes else None
-        for leaf, slope in slopes.items():
-            parts[leaf].append((self._graph.times(by_inner, slope), factor))
 
     def _of_choice(self, node: Node) -> Slopes:
         """Slopes of a piecewise node; the derivative is NaN in cases whose value is NaN."""
@@ -71,6 +66,12 @@ class Gradient:
 
         return {leaf: graph.choice(tuple((condition, of_case(value, leaf)) for condition, value in cases),
                                    of_case(otherwise, leaf)) for leaf in leaves}
+
+
+def _add(parts: dict[Node, Terms], slopes: Slopes, factor: Number, graph: Graph, outer: Node) -> None:
+    """Add the derivatives of an inner node times the outer derivative, by the chain rule."""
+    for leaf, slope in slopes.items():
+        parts[leaf].append((graph.times(outer, slope), factor))
 
 
 class Hessian:

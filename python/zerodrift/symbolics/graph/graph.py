@@ -106,7 +106,8 @@ class Graph:
         return node if coefficient == 1 else self.sum([(node, coefficient)])
 
     def _factors(self, factors: Iterable[tuple[Node, Number]]) -> tuple[Number, dict[Node, Number]]:
-        coefficient, collected = 1, {}
+        coefficient: Number = 1
+        collected: dict[Node, Number] = {}
         for node, exponent in factors:
             is_integer = exponent == int(exponent)
             if node.kind == "number" and (is_integer or node.content[0] >= 0) and not (node.content[0] == 0 and exponent < 0):
@@ -158,7 +159,7 @@ class Graph:
 
     # ---- rewriting ----
 
-    def derivative_along(self, direction: Mapping[Node, Node]) -> Callable[[Node], Node]:
+    def derivative_along(self, direction: Mapping[Node, Node]) -> Derivative:
         """The derivative in a direction, which gives the rates of some leaves; all other leaves are constant."""
         return Derivative(self, direction)
 
@@ -205,6 +206,9 @@ def power(base: Number, exponent: Number) -> Number:
 
 class _NodeFunction:
     """A function of nodes defined by its values at leaves; each value is computed once and cached."""
+
+    _of: Any                # value at a node
+    _of_unaffected: Any     # and at one below the stages of the leaves
 
     def __init__(self, graph: Graph, leaves: Mapping[Node, Node]) -> None:
         self._graph, self._known = graph, dict(leaves)

@@ -33,7 +33,8 @@ class Lowering:
     """The operations that compute nodes of a graph, in order; leaves among `values` stand for other nodes."""
 
     def __init__(self, graph: Graph, values: Mapping[Node, Node] | None = None) -> None:
-        self.graph, self.operations, self._values = graph, [], values or {}
+        self.graph, self._values = graph, values or {}
+        self.operations: list[Operation] = []
         self.exact: dict[str, str] = {}     # fractions by the doubles nearest to them
         self._numbers: dict[tuple[Any, ...], int] = {}
         self._lowered: dict[Node, int] = {}
@@ -105,7 +106,8 @@ class Lowering:
 
     def _terms(self, node: Node) -> list[Term]:
         """Terms of a sum; terms that differ only by factors of parameters are merged, with a coefficient of parameters."""
-        graph, groups = self.graph, {}
+        graph = self.graph
+        groups: dict[Any, list[tuple[Node, Number]]] = {}
         if node.stage == FIXED:
             return [self._term(graph.number(number), term.content if term.kind == "product" else ((term, 1),))
                     for term, number in node.content]
@@ -117,7 +119,8 @@ class Lowering:
         return [self._term(graph.sum(coefficients), varying) for varying, coefficients in groups.items()]
 
     def _term(self, coefficient: Node, varying: tuple[tuple[Node, Number], ...]) -> Term:
-        factors, number = dict(varying), 1
+        factors: dict[Any, Number] = dict(varying)
+        number: Number = 1
         if coefficient.kind == "number":
             number = coefficient.content[0]
         elif coefficient.kind == "sum" and len(coefficient.content) == 1:
@@ -170,11 +173,10 @@ class Lowering:
         return self._times(*term)
 
     def _times(self, sign: int, factors: dict[Any, Number]) -> Signed:
-        above, below = [], []
-        for factor, exponent in factors.items():
-            (below if exponent < 0 else above).append(self._power(factor, abs(exponent)))
+        powers = [(exponent < 0, self._power(factor, -exponent if exponent < 0 else exponent))
+                  for factor, exponent in factors.items()]
         one = self._number(1)
-        above, below = ([value for value in side if value != one] for side in (above, below))
+        above, below = ([value for is_below, value in powers if is_below == side and value != one] for side in (False, True))
         if not below:
             return sign, self._multiplied(above, one)
         fixed = [value for value in below if self.operations[value].stage == FIXED]

@@ -11,7 +11,7 @@ from .lowering import Lowering
 
 ELSEWHERE = {"Abs": np.abs, "asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "atan2": np.arctan2, "asinh": np.arcsinh,
              "acosh": np.arccosh, "atanh": np.arctanh, "Pow": np.power, "Min": np.fmin, "Max": np.fmax}    # by SymPy's names
-PLAIN: dict[str, Callable[..., Any]] = {
+PLAIN: dict[str, np.ufunc] = {
     "+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide, "negative": np.negative, "root": np.sqrt, "power": np.power,
     "<": np.less, "<=": np.less_equal, ">": np.greater, ">=": np.greater_equal, "==": np.equal, "!=": np.not_equal,
     "and": np.logical_and, "or": np.logical_or, "not": np.logical_not}
@@ -21,7 +21,7 @@ class Unknown(Exception):
     """Raised if a program has a function that NumPy does not have."""
 
 
-def function_of(name: str) -> Callable[..., Any]:
+def function_of(name: str) -> np.ufunc:
     """NumPy's function for SymPy's name.
 
     Raises

@@ -5,7 +5,7 @@ Bodies are ranges of velocities that M and A do not couple with others, and grou
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import groupby, pairwise
 from typing import Any
 
@@ -21,7 +21,8 @@ class Pattern:
     (nq, nv, mh, mn).
     """
 
-    def __init__(self, terms: dict[str, Sequence[Any]], sizes: tuple[int, int, int, int], is_zero: Callable[[Any], bool]) -> None:
+    def __init__(self, terms: Mapping[str, Sequence[Any]], sizes: tuple[int, int, int, int],
+                 is_zero: Callable[[Any], bool]) -> None:
         self._terms, self._sizes, self._is_zero = terms, sizes, is_zero
         self._rows = [frozenset(self._columns("C", k)) for k in range(sizes[2] + sizes[3])]
         self._diagonal = [self._columns("M", i) in ([], [i]) for i in range(sizes[1])]
@@ -38,13 +39,14 @@ class Pattern:
         block_of = [b for b, (first, end) in enumerate(ends) for _ in range(first, end)]
         touched = [tuple(sorted({block_of[j] for j in row})) or (0,) for row in self._rows]
         alike = groupby(range(mh + mn), key=lambda k: (k < mh, touched[k]))
-        groups = [[len(list(rows)), list(blocks)] for (_, blocks), rows in alike]
+        groups = [(len(list(rows)), blocks) for (_, blocks), rows in alike]
         sizes = [end - first for first, end in ends]
         stored = sum(rows * sum(sizes[b] for b in blocks) for rows, blocks in groups) + sum(size * size for size in sizes)
         if stored > SPARSE * (nv + mh + mn) * nv:
             return None
         words = ["diagonal" if all(self._diagonal[first:end]) else "" for first, end in ends]
-        return {"blocks": [list(pair) for pair in zip(coordinates, sizes, strict=True)], "groups": groups, "mass": words}
+        return {"blocks": [list(pair) for pair in zip(coordinates, sizes, strict=True)], "mass": words,
+                "groups": [[rows, list(blocks)] for rows, blocks in groups]}
 
     def _columns(self, term: str, row: int) -> list[int]:
         nv, entries = self._sizes[1], self._terms.get(term, ())
