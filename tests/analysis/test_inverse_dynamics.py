@@ -240,6 +240,9 @@ def test_masses_are_those_of_the_system_that_is_given():
     assert heavy == pytest.approx(2 * light, rel=1e-9)
     with refused("wrong-element", "motion.*slider_crank.*four_bar"):
         zd.inverse_dynamics(zd.models.slider_crank(), kin)
+    of_another_kind = zd.kinematics(zd.systems.four_bar(), {"alpha1": [1.5, 1.6]}, speed=1.0)
+    with refused("wrong-element", "motion must be one of four_bar in its coordinates"):
+        zd.inverse_dynamics(zd.models.four_bar(), of_another_kind)
 
 
 def test_an_effort_along_nothing_is_refused():

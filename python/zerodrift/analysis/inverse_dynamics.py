@@ -101,7 +101,7 @@ def _in_coordinates_of(motion: Kinematics, given: Any) -> BaseSystem:
     ValueError
         If it has others.
     """
-    system = given.system(motion.system.layout) if isinstance(given, Makes) else given
+    system = given.system(getattr(motion.system, "layout", None)) if isinstance(given, Makes) else given
     if [each.name for each in system.coordinates] != [each.name for each in motion.system.coordinates]:
         raise WrongValue(f"motion must be one of {system.name} in its coordinates, not of {motion.system.name} in others",
                          "wrong-element")
