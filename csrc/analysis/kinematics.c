@@ -103,6 +103,9 @@ static int set_changes(tracker *self)
     return status;
 }
 
+/* True at a dead point, or next to it: positions are inaccurate there, and rates may be those of another branch. */
+static int is_singular(const tracker *self) { return self->is_determined && !(zd_prescribed_rows_pivot(&self->rows) > SINGULAR); }
+
 /* linear <- position of the linear predictor, *step <- its size; next <- the same with the deviation extrapolated from those of earlier
  * parts, unless that is large. `h`: length of the part */
 static int predict(tracker *self, double h, double *step)
@@ -110,7 +113,7 @@ static int predict(tracker *self, double h, double *step)
     const int status = set_changes(self);
     if (status) return status;
     *step = find_change(self);
-    if (self->is_determined && !(zd_prescribed_rows_pivot(&self->rows) > SINGULAR)) return ZD_NO_CONVERGENCE;
+    if (is_singular(self)) return ZD_NO_CONVERGENCE;
     if (!(*step <= LARGEST_STEP)) return ZD_NO_CONVERGENCE;
     displace(self, self->reached, self->linear);
     memset(self->change, 0, (size_t)self->nq * sizeof *self->change);
@@ -149,6 +152,7 @@ static int go(tracker *self, double h)
     int status = predict(self, h, &step);
     if (!status) status = correct(self);
     if (status) return status;
+    if (is_singular(self)) return ZD_NO_CONVERGENCE;
     for (int i = 0; i < nq; i++) self->change[i] = self->next[i] - self->linear[i];
     if (!(size_of_change(self) <= LARGEST_DEVIATION * step + 1e-9)) return ZD_NO_CONVERGENCE;
     copy(self, self->next, self->reached);

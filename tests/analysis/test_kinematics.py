@@ -237,3 +237,20 @@ def test_a_start_is_led_to_values_that_leave_freedoms():
     assert kin["knee.angle"] == pytest.approx(expected["knee.angle"])
     with pytest.raises(zd.CorrectionFailed, match=r"can move to .*the way to lower\.end\.position ends at \[0\.9"):
         zd.kinematics(m, {"lower.end.position": circle}, [0.0, 1.0], near={"lower.end.position": [1.5, 0.9]})
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_a_sample_in_a_flat_pose_is_a_dead_point(layout):
+    """A parallelogram: in its flat pose two branches meet, and rates of either satisfy the constraints."""
+    m = zd.Mechanism("parallelogram", gravity=(0, -9.81))
+    crank = m.link("crank", (0, 0), (0.3, 0.3), mass=1.0)
+    coupler = m.link("coupler", crank.end, (1.3, 0.3), mass=1.0)
+    rocker = m.link("rocker", coupler.end, (1, 0), mass=1.0)
+    for name, first, second in (("A", m.ground, crank.start), ("B", crank.end, coupler.start), ("C", coupler.end, rocker.start),
+                                ("D", rocker.end, m.ground)):
+        m.revolute(name, first, second)
+    with pytest.warns(zd.LockedWarning, match="1 samples beyond it are NaN"):
+        kin = zd.kinematics(m.system(layout), {"crank.angle": np.linspace(1.0, -1.0, 21)}, speed=-1.0)
+    assert np.flatnonzero(np.isnan(kin.p[:, 0])).tolist() == [10]
+    others = np.delete(kin["rocker.angular_velocity"], 10)
+    assert others == pytest.approx(-1.0, abs=1e-9)
