@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from .._gateway.mechanisms.core import MechanismCore
 from ..systems.base import BaseSystem, core_of
 from . import differences
 from .quantities import rates_of
@@ -103,6 +104,13 @@ class Frame:
         return self.gravity[None] / size if size else np.eye(3)
 
 
+def mechanism_core_of(system: BaseSystem) -> MechanismCore:
+    """The core's system of a mechanism."""
+    core = core_of(system)
+    assert isinstance(core, MechanismCore)
+    return core
+
+
 class BodyFrame(Frame):
     """The frame of a mechanism: velocities of mass centres, and angular velocities."""
 
@@ -137,7 +145,7 @@ class BodyFrame(Frame):
         is_spin = np.ones(w.size, dtype=bool)
         is_spin[[first + i for first in self.vectors for i in range(self.dimension)]] = False
         spins = [w[first:first + 3] for first in self.turning] + [np.array([0.0, 0.0, each]) for each in w[is_spin]]
-        centres = core_of(at.system).poses(at.p)[0][:, :self.dimension]
+        centres = mechanism_core_of(at.system).poses(at.p)[0][:, :self.dimension]
         space = np.zeros((2, len(places), 3))
         space[:, :, :self.dimension] = centres, [w[first:first + self.dimension] for first in places]
         about = np.cross(*space) / np.maximum((space[0]**2).sum(axis=1), 1e-300)[:, None]

@@ -82,7 +82,7 @@ def inverse_dynamics(system: Any, motion: Any, p: Any = None, v: Any = None, vdo
         if any(each is not None for each in (p, v, vdot)):
             raise WrongType("p, v and vdot must be left out with what zd.kinematics returned", "conflicting-arguments")
         system, names = _in_coordinates_of(motion, given), list(motion.prescribed) if names is None else names
-        samples = motion.t, motion.p, motion.v, motion.vdot
+        samples: tuple[np.ndarray, ...] = motion.t, motion.p, motion.v, motion.vdot
         if (np.isfinite(motion.p[:, :1]) & ~np.isfinite(motion.v[:, :1])).any():
             raise WrongValue("motion must have rates, and these positions have none: give t or speed to zd.kinematics",
                              "missing-argument")
@@ -201,7 +201,7 @@ def _missing(at: State, vdot: np.ndarray, effort: np.ndarray) -> dict[str, float
     V = Tangent(at).velocities
     left = V.T @ (at.M @ vdot - at.force - effort)
     size = np.linalg.norm(np.abs(V.T) @ (np.abs(at.M) @ np.abs(vdot) + np.maximum(at.magnitudes, np.abs(at.force))))
-    residual = np.linalg.norm(left)
+    residual = float(np.linalg.norm(left))
     return {dominant(at, at.A @ (V @ left)): residual} if residual > UNDRIVEN * (size or 1.0) else {}
 
 

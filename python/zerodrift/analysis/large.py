@@ -19,7 +19,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .._gateway import acceleration
+from .._gateway import CoreSystem, acceleration
+from .._gateway.packed_layout import Packing
 from ..errors import EquilibriumFailed, ZerodriftError
 from ..runs.arguments import methods, settings
 from ..runs.states.operations import project
@@ -70,11 +71,18 @@ def _start(system: BaseSystem) -> tuple[np.ndarray, np.ndarray]:
     return np.array(system._state_or_start(None, None, "p", "v", 0.0)[0]), np.zeros(system.nv)
 
 
+def packing_of(core: CoreSystem) -> Packing:
+    """Storage of a system for which `blocks_that_meet` found some."""
+    assert core.packing is not None
+    return core.packing
+
+
 class SparseBalance:
     """Terms, accelerations and multipliers of a system that is let go at a position."""
 
     def __init__(self, system: BaseSystem, t: float, p: np.ndarray) -> None:
         self.system, self.t, self.core = system, t, core_of(system)
+        self.packing = packing_of(self.core)
         self.p, self.rest = np.ascontiguousarray(p), np.zeros(system.nv)
         self.terms = self.core.evaluate_stored(t, self.p, self.rest)
         self.vdot, self.lam = acceleration(self.core, methods.row_of("formulations", "augmented"),
@@ -103,7 +111,7 @@ class SparseBalance:
 
     def magnitude(self) -> float:
         """Norm of the magnitudes of forces and reactions in the mass metric, by the diagonal of M."""
-        reactions = self.core.packing.times("C", np.abs(self.terms["C"]), np.abs(self.lam), transposed=True)
+        reactions = self.packing.times("C", np.abs(self.terms["C"]), np.abs(self.lam), transposed=True)
         size = self.core.force_magnitudes(self.t, self.p, self.rest) + reactions
         return float(np.linalg.norm(size / np.sqrt(np.maximum(sparse(self, "M").diagonal(), 1e-300))))
 
@@ -122,7 +130,7 @@ class SparseBalance:
 
     def _residual(self, p: np.ndarray) -> np.ndarray:
         terms = self.core.evaluate_stored(self.t, np.ascontiguousarray(p), self.rest)
-        return self.core.packing.times("C", terms["C"], self.lam, transposed=True) - terms["f"]
+        return self.packing.times("C", terms["C"], self.lam, transposed=True) - terms["f"]
 
 
 def _scipy() -> Any:
@@ -131,7 +139,7 @@ def _scipy() -> Any:
 
 def sparse(balance: SparseBalance, name: str) -> Any:
     """C or M as a sparse matrix."""
-    packing = balance.core.packing
+    packing = balance.packing
     place, shape = np.array(packing.places(name)), packing.shapes[name]
     return _scipy().csc_matrix((balance.terms[name], np.divmod(place, shape[1])), shape=shape)
 
@@ -146,7 +154,7 @@ class Entries(NamedTuple):
 
 def pattern_of(system: BaseSystem, meet: list[set[int]]) -> list[Entries]:
     """The entries of K, by groups of bodies no two of which meet a common one."""
-    sizes = [block[1] for block in core_of(system).packing.blocks]
+    sizes = [block[1] for block in packing_of(core_of(system)).blocks]
     starts = np.cumsum([0, *sizes])
     touched = [np.concatenate([np.arange(starts[j], starts[j + 1]) for j in sorted(near)]) for near in meet]
     entries = []

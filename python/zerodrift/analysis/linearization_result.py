@@ -127,7 +127,7 @@ class Linearization:
         """
         wanted = names_of(names, "names")
         J, nv = np.vstack([_row(self._at, name) for name in wanted]), self.system.nv
-        if self._instant:
+        if self._instant is not None:
             return self._in_quantities(wanted, J @ self._quasi[:nv])
         Q = complement(self._spectrum.removed)
         Y = np.vstack([J @ self._quasi[:nv], J @ self._quasi[nv:] + self._rates(wanted)]) @ Q
@@ -158,12 +158,16 @@ class Linearization:
         at, columns = self._at, []
         basis = self.basis[:self.system.nq].T
         for dp, size in zip(basis, sizes_of(at, basis, np.zeros((len(basis), self.system.nv))), strict=True):
-            columns.append(differences.along(lambda h, dp=dp: np.concatenate([
-                _row(state(at.system, at.t, at.p + h * dp, at.v), name) @ at.v for name in names]), size))
+            def rates(h: float, dp: np.ndarray = dp) -> np.ndarray:
+                there = state(at.system, at.t, at.p + h * dp, at.v)
+                return np.concatenate([_row(there, name) @ at.v for name in names])
+
+            columns.append(differences.along(rates, size))
         return np.array(columns).T
 
     def _second_rates(self, names: list[str]) -> np.ndarray:
         """Changes (2 n, k) of the rates of these quantities and of their second rates along the basis, at an instant."""
+        assert self._instant is not None
         at, (vdot, dvdot), nq, columns = self._at, self._instant, self.system.nq, []
         for direction, change in zip(self.basis.T, dvdot.T, strict=True):
             dp, dv = direction[:nq], direction[nq:]

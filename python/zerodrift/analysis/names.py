@@ -33,7 +33,7 @@ def pivots(at: State, basis: np.ndarray) -> list[str]:
     names, rows = labelled(at)
     nq = at.system.nq
     left = np.vstack([rows @ basis[:nq], basis[nq:] / scales(at.system, at.p).v[:, None]])
-    names, found = [*names, *(each.name for each in at.system.velocities)], []
+    names, found = [*names, *(each.name for each in at.system.velocities)], list[str]()
     for first, last in ((0, len(rows)), (len(rows), len(left))):
         while len(found) < basis.shape[1]:
             size = np.linalg.norm(left[first:last], axis=1)

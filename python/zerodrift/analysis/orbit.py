@@ -16,8 +16,7 @@ import numpy as np
 
 from .._rotations import product, rotation_of, turn
 from ..runs.states.instant import Reading
-from ..systems.base import core_of
-from .frames import BodyFrame, Frame
+from .frames import CoordinateFrame, Frame, mechanism_core_of
 from .state import State, scales, state
 
 INSTANTS = 16       # of one turn of each rate
@@ -54,24 +53,24 @@ class Orbit:
     def state(self, s: float) -> State:
         """The state after the time s."""
         at = self.at
-        p = self._of_bodies(s) if isinstance(self.frame, BodyFrame) else self._of_coordinates(s)
+        frame = self.frame
+        p = self._of_coordinates(s, frame) if isinstance(frame, CoordinateFrame) else self._of_bodies(s)
         there = state(at.system, at.t + s, p, np.zeros(at.system.nv))
         rows, scale = self.frame.rows(there), scales(at.system, p).v
         v = scale * np.linalg.lstsq(rows * scale, self.turned(s) @ self.w, rcond=None)[0]
         return state(at.system, at.t + s, p, v)
 
-    def _of_coordinates(self, s: float) -> np.ndarray:
+    def _of_coordinates(self, s: float, frame: CoordinateFrame) -> np.ndarray:
         """Coordinates (nq,) of a system without bodies, whose rates are constant."""
         p, pdot = self.at.p.copy(), self.at.A @ self.at.v
-        places = self.frame.places
-        p[places] += s * pdot[places]
-        for first, to in zip(self.frame.turning, self.at.system.quaternions, strict=True):
+        p[frame.places] += s * pdot[frame.places]
+        for first, to in zip(frame.turning, self.at.system.quaternions, strict=True):
             p[to:to + 4] = product(turn(self.w[first:first + 3] * s), p[to:to + 4])
         return p
 
     def _of_bodies(self, s: float) -> np.ndarray:
         """Coordinates (nq,) of a mechanism."""
-        at, core = self.at, core_of(self.at.system)
+        at, core = self.at, mechanism_core_of(self.at.system)
         poses, rates = core.poses(at.p, at.v)
         if self.frame.dimension == 2:
             w = np.hstack([rates[:, :2], np.zeros((len(rates), 1))])

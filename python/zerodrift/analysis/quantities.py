@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -89,7 +89,8 @@ def find(at: State, name: str, what: str) -> Found:
     found = rates_of(system, (name,), what, np.array([float(at.t)]), at.p[None], at.v[None])
     is_velocity = name in _names(system.velocities) if place is None else (
         system._watching.core.measure_depends(place.number) == "velocities")
-    return Found(*(each[0] for each in found.values()), is_velocity)
+    value, rate, row, bias = (found[part][0] for part in PARTS)
+    return Found(value, rate, row, bias, is_velocity)
 
 
 def rows_of(at: State, names: Iterable[str]) -> np.ndarray:
@@ -98,7 +99,7 @@ def rows_of(at: State, names: Iterable[str]) -> np.ndarray:
 
 
 def rates_of(system: BaseSystem, names: tuple[str, ...], what: str, t: np.ndarray, p: np.ndarray,
-             v: np.ndarray | None = None, parts: Iterable[str] = PARTS) -> dict[str, np.ndarray]:
+             v: np.ndarray | None = None, parts: Sequence[str] = PARTS) -> dict[str, np.ndarray]:
     """Values, rates, biases (k, size) and rows (k, size, nv) of quantities, stacked, at states t (k,), p (k, nq), v (k, nv).
 
     `v` left out: at rest. `parts`: those of them that are wanted.
@@ -139,7 +140,10 @@ def _of_variable(system: BaseSystem, name: str, what: str, t: np.ndarray, p: np.
     for n in range(k if "bias" in parts else 0):
         if not np.array_equal(A[n], identity):
             size = float(np.abs(pdot[n] / scales(system, p[n]).p).max(initial=0.0))
-            bias[n] = differences.along(lambda h, n=n: state(system, t[n], p[n] + h * pdot[n], v[n]).A[[i]] @ v[n], size)
+            def row(h: float, at_t: float = float(t[n]), n: int = n) -> np.ndarray:
+                return state(system, at_t, p[n] + h * pdot[n], v[n]).A[[i]] @ v[n]
+
+            bias[n] = differences.along(row, size)
     return {"value": p[:, [i]], "rate": pdot[:, [i]], "bias": bias, "row": A[:, [i]]}
 
 

@@ -50,9 +50,10 @@ class Held:
 
         return solved(at, self.names, respond)
 
-    def instant(self, at: State, *moving: np.ndarray) -> KnownInstant:
-        """Any quantity at p, v, vdot and the multipliers with constant efforts."""
-        return KnownInstant(at.system, at.t, *moving, at.system._watching.acting(self.names, self.efforts[None]))
+    def instant(self, at: State, p: np.ndarray, v: np.ndarray, vdot: np.ndarray, multipliers: np.ndarray) -> KnownInstant:
+        """Any quantity there with constant efforts."""
+        efforts = None if self.efforts is None else at.system._watching.acting(self.names, self.efforts[None])
+        return KnownInstant(at.system, at.t, p, v, vdot, multipliers, efforts)
 
     def along(self, at: State, efforts: np.ndarray, dp: np.ndarray, dt: float, *, is_rough: bool) -> np.ndarray:
         """Derivatives (nv, k) of the generalized forces of efforts, along directions dp (k, nq) with dt."""
@@ -97,16 +98,20 @@ def solved(at: State, names: Sequence[str], respond: Callable[[np.ndarray], Moti
 
     def left(u: np.ndarray) -> np.ndarray:
         vdot, lam, efforts = motions(u)
-        return u - core.read_given(*(np.repeat(each, len(u), axis=0) for each in where), np.ascontiguousarray(vdot),
-                                   np.ascontiguousarray(lam), acting=at.system._watching.acting(names, efforts))
+        t, p, v = (np.repeat(each, len(u), axis=0) for each in where)
+        return u - core.read_given(t, p, v, np.ascontiguousarray(vdot), np.ascontiguousarray(lam),
+                                   acting=at.system._watching.acting(names, efforts))
 
     for _ in range(ITERATIONS):
         off = left(u[None])[0]
         if np.abs(off).max(initial=0.0) <= LEFT * max(float(np.abs(u).max(initial=0.0)), 1e-300):
             break
         unit = np.diag(np.maximum(np.abs(u), np.abs(off)))
-        matrix = differences.each_roughly(lambda which, h, u=u, unit=unit: left(u + h[:, None] * unit[which]), np.ones(len(u)),
-                                          len(u))
+
+        def moved(which: np.ndarray, h: np.ndarray, u: np.ndarray = u, unit: np.ndarray = unit) -> np.ndarray:
+            return left(u + h[:, None] * unit[which])
+
+        matrix = differences.each_roughly(moved, np.ones(len(u)), len(u))
         if not np.linalg.det(matrix) > 0:
             raise NoUniqueMotion(f"{at.system.name} must have one force that makes this motion, and friction has several or none")
         u = u - unit @ np.linalg.solve(matrix.T, off)

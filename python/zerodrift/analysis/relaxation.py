@@ -7,6 +7,7 @@ import warnings
 import numpy as np
 
 from ..errors import ZerodriftError
+from ..runs.arguments.events import Event
 from ..runs.simulate import simulate
 from ..runs.states.operations import acceleration
 from ..systems.base import BaseSystem
@@ -47,11 +48,10 @@ def _to_the_fastest(system: BaseSystem, p: np.ndarray, rest: np.ndarray, horizon
     def power(t: float, p: np.ndarray, v: np.ndarray) -> float:
         return float(v @ state(system, t, p, v).force)
 
-    power.terminal, power.direction = True, -1
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")     # the way to rest need not be accurate
-        sol = simulate(system, horizon, p, rest, integrator="dormand_prince", rtol=1e-4, atol=1e-6, events=[power],
-                       max_steps=5000)
+        sol = simulate(system, horizon, p, rest, integrator="dormand_prince", rtol=1e-4, atol=1e-6, max_steps=5000,
+                       events=[Event(power, terminal=True, direction=-1)])
     if not len(sol.t):
         raise ZerodriftError("the motion towards rest did not begin")
     return np.array(sol.p[-1])

@@ -180,7 +180,7 @@ def nearest(here: Balance) -> np.ndarray:
     """Newton's step z (k,), flat directions left out."""
     K, (curvature, axes), flat = here.stiffness, here.curvature, here.zero * here.stiffest
     if np.abs(K - K.T).max(initial=0.0) > max(SYMMETRIC * np.abs(K).max(initial=0.0), flat):
-        return np.linalg.lstsq(K, here.force, rcond=min(flat / np.linalg.norm(K, 2), 0.5))[0]
+        return np.linalg.lstsq(K, here.force, rcond=min(float(flat / np.linalg.norm(K, 2)), 0.5))[0]
     U = axes[:, np.abs(curvature) > flat]
     return U @ np.linalg.solve(U.T @ K @ U, U.T @ here.force)
 

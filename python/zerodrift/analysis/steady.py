@@ -33,7 +33,7 @@ GUESSES = 2         # angular velocities of each kind that are tried
 DIFFERENCE = 1e-4                       # characteristic scales: half of a central difference
 
 
-def with_speeds(at: State, speeds: Mapping[str, float]) -> State:
+def with_speeds(at: State, speeds: Mapping[str, np.ndarray]) -> State:
     """The state at the same position with the nearest velocities that meet the constraints and the prescribed speeds.
 
     Raises
@@ -56,7 +56,7 @@ def with_speeds(at: State, speeds: Mapping[str, float]) -> State:
     return state(at.system, at.t, at.p, v + Z @ (Z.T @ at.M @ (at.v - v)))
 
 
-def free_velocities(at: State, speeds: Mapping[str, float]) -> np.ndarray:
+def free_velocities(at: State, speeds: Mapping[str, np.ndarray]) -> np.ndarray:
     """Basis (nv, j) of the velocity changes that keep the constraints and the prescribed speeds."""
     rows = [find(at, name, "v").row for name in speeds]
     return Tangent(at, np.vstack(rows) if rows else None).velocities
@@ -84,13 +84,13 @@ class Steady:
     ----------
     system : BaseSystem
     t : float
-    speeds : dict of str to float
+    speeds : dict of str to ndarray (size,)
         Rates that are prescribed.
     held : list of str
         Scalar quantities that efforts keep constant.
     """
 
-    def __init__(self, system: BaseSystem, t: float, speeds: Mapping[str, float], held: Sequence[str]) -> None:
+    def __init__(self, system: BaseSystem, t: float, speeds: Mapping[str, np.ndarray], held: Sequence[str]) -> None:
         self.system, self.t, self.speeds, self.held = system, t, speeds, list(held)
         self.iterations, self.instants, self.is_Omega_known = 0, [0.0], False
 

@@ -181,7 +181,7 @@ def _reader(what: str, reading: Reading, system: BaseSystem) -> Value:
             return lambda t, p, v: v[reading.entry]
         case known_events.NUMBER:
             return lambda t, p, v: Decimal(reading.number)
-    name = system._measuring.measures[reading.entry].name
+    name = system._watching.core.measures[reading.entry].name
     program = system._program_of(name, reading.component)
     if program is None:
         raise WrongValue(f"{what} must be a measure of positions or velocities, which {name!r} is not")

@@ -46,6 +46,7 @@ class MechanismCore(CoreSystem):
     made_by: Any                            # function of the core that creates the mechanism
     motions: Any                            # as each dimension has them
     poses: Any
+    angles: Any
     state: Any
 
     def __init__(self, tables: Any, law: Law | None = None, *, laws_know_time: bool = True) -> None:
