@@ -84,10 +84,16 @@ def test_a_compiler_that_fails_leaves_the_tables(monkeypatch, cache_folder):  # 
         zd.simulate(four_bar().system(compiled=True), **RUN)
 
 
-def test_a_run_of_an_ensemble_has_the_same_bits_alone():
-    ens = zd.ensemble(four_bar(), parameters={"crank.mass": [1.0, 2.0]}, outputs=["crank.angle"], **RUN | {"save_every": 100})
-    assert not ens[1].system.compiled
-    assert ens[1]["crank.angle"].tobytes() == ens["crank.angle"][1].tobytes()
+def test_runs_of_an_ensemble_have_the_same_bits_alone_and_one_by_one():
+    masses = {"crank.mass": [1.0, 2.0]}
+    many = zd.ensemble(four_bar(), parameters=masses, outputs=["crank.angle"], **RUN | {"save_every": 100})
+    kept = zd.ensemble(four_bar(), parameters=masses, keep="solutions", **RUN | {"save_every": 100})
+    made = zd.ensemble(lambda mass: four_bar().with_parameters({"crank.mass": mass}), parameters={"mass": [1.0, 2.0]},
+                       outputs=["crank.angle"], **RUN | {"save_every": 100})
+    for each in (many[1], kept[1]):
+        assert not each.system.compiled
+        assert each["crank.angle"].tobytes() == many["crank.angle"][1].tobytes()
+    assert made["crank.angle"].tobytes() == many["crank.angle"].tobytes()
 
 
 def test_compiled_must_be_a_flag():

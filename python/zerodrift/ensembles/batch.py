@@ -174,8 +174,8 @@ def _solution_of_family(plan: Plan, batch: Batch, tables: NumberTables, run: int
     p0, v0, places = start
     recorded = [name for name, (group, _) in batch.columns.items() if group == "outputs"]
     system = plan.runs.system(run)
-    if isinstance(system, MechanismSystem):
-        system = system._by_tables(places)
+    if places and isinstance(system, MechanismSystem):
+        system = system._driven_from(places)
     return simulate(system, plan.t_span, p0, v0, **plan.options, outputs=recorded or None)
 
 

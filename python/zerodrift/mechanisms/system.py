@@ -229,6 +229,9 @@ class MechanismSystem(Reported):
         gains = self._compiled is None and self._gains_by_compiling(steps)
         return MechanismSystem(self._drawing, self.layout, self._changed, compiled=True) if gains else None
 
+    def _by_tables(self) -> MechanismSystem:
+        return MechanismSystem(self._drawing, self.layout, self._changed, False) if self._compiled is None else self
+
     def _why_no_closed_form(self, embeds: bool = False, steps: float = 0.0) -> str | None:
         if not self._is_written_out:
             return self._why_interpreted(steps)
@@ -313,12 +316,10 @@ class MechanismSystem(Reported):
         closed_form = self._closed_form if self._is_written_out else None
         return MechanismSystem(self._drawing, self.layout, self._changed | numbers, self._compiled, closed_form)
 
-    def _by_tables(self, places: list[float]) -> MechanismSystem:
-        """The same system, with these initial positions of its motors of constant speed, which long runs do not compile."""
+    def _driven_from(self, places: list[float]) -> MechanismSystem:
+        """The same system with these initial positions of its motors of constant speed, as assembled or nearly."""
         other = self._with({})
-        other._compiled = bool(self._compiled)
-        if places:
-            other._start.drives = dict(zip(other._start.drives_by_name, places, strict=True))
+        other._start.drives = dict(zip(other._start.drives_by_name, places, strict=True))
         return other
 
     def _definition(self) -> tuple[Any, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
 
@@ -61,6 +61,10 @@ class Defaults:
     def _compiled_for(self, steps: int) -> Any:
         """The same system with compiled equations, if a run of so many fixed steps gains by it; None: it does not."""
         return None
+
+    def _by_tables(self) -> Self:
+        """The same system, which no run compiles by itself: single runs of an ensemble have the bits of its batches."""
+        return self
 
     def _parameter_units(self) -> dict[str, str]:
         """Units of the parameters, as far as they are known."""
