@@ -137,9 +137,8 @@ class Watcher:
 
 
 @ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep_error)
-def zd_event_in_python(owner: Any, event: int, *of: Any) -> int:
-    *arguments, value = of
-    value[0] = ffi.from_handle(owner).value(event, *arguments)
+def zd_event_in_python(owner: Any, event: int, t: float, p: Any, v: Any, x: Any, value: Any) -> int:
+    value[0] = ffi.from_handle(owner).value(event, t, p, v, x)
     return DONE
 
 
