@@ -40,12 +40,13 @@ int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singul
                      const double *p, const double *v, double *vdot, double *multipliers, int *is_deficient, double *u, char *message,
                      int message_size)
 {
-    const int64_t nq = system->nq, nv = system->nv, m = zd_constraints(system);
+    const int64_t nq = system->nq, nv = system->nv;
     int status = ZD_DONE;
     for (int64_t i = 0; i < states && !status; i++) {
         zd_run *run = accelerated(system, formulation, on_singular, t[i], p + i * nq, v + i * nv, &status, message, message_size);
         if (!run) return status;
         const zd_point *point = run->motion.point;
+        const int64_t m = zd_constraints(system);
         zd_rank_find_multipliers(point);
         if (vdot) memcpy(vdot + i * nv, point->vdot, (size_t)nv * sizeof *vdot);
         if (multipliers) memcpy(multipliers + i * m, point->lambda, (size_t)m * sizeof *multipliers);
