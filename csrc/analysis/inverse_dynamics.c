@@ -24,7 +24,7 @@ typedef struct inverse {
     zd_point *point;
     int n, m, freedoms;
     zd_row_space rows;      /* C in scaled velocities, each row divided by its length */
-    double *length;         /* (m,): these lengths; 0 for rows that are the rounding of terms that cancel */
+    double *length;         /* (m,): these lengths; 0: the row is the rounding error of terms that cancel */
     double *Z, *L;          /* (r, nv), (r, r): see above, factors by zd_cholesky(); Z of a system without constraints is not set */
     double mobility;        /* the largest entry of D^-1 */
     zd_row_space acting;    /* V G^T, weighted: a column for each effort */

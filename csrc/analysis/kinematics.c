@@ -18,7 +18,7 @@ static const double LARGEST_DEVIATION = 0.2;    /* deviation from the linear pre
 static const double SMALLEST_PART = 1e-9;       /* smallest part of the way between two samples */
 static const double SINGULAR = 1e-6;            /* relative pivot next to a dead point */
 static const double NEAR_SINGULAR = 1e-3;       /* relative pivot below which a dead point, not a contradiction, may end the way */
-static const double CONTRADICTION = 1e-10;      /* residual of a row that is not solved, in characteristic scales */
+static const double CONTRADICTION = 1e-10;      /* residual of a redundant row, in characteristic scales */
 static const double OF_CHANGES = 1e-3;          /* residual relative to changes of prescribed quantities that contradict each other */
 static const double OF_RATES = 1e-9;            /* residual relative to rates */
 static const double CONVERGED = 1e-13;          /* last iteration, in characteristic scales */
@@ -188,7 +188,7 @@ static int follow(tracker *self, int64_t i)
     return ZD_DONE;
 }
 
-/* Notes the first sample at which rows that are not solved contradict the others by more than a share of the right-hand side, whose size
+/* Notes the first sample at which redundant rows contradict the others by more than a share of the right-hand side, whose size
  * is at least `least`. */
 static void note_contradiction(const zd_prescribed_rows *rows, int count, double share, double least, int64_t i, zd_tracked *found)
 {

@@ -33,5 +33,5 @@ double zd_prescribed_rows_pivot(const zd_prescribed_rows *self);
 int zd_prescribed_rows_move(zd_prescribed_rows *self, const double *v);
 /* x (nv,) <- solution of rows x = right, which is divided by the lengths. */
 void zd_prescribed_rows_solve(zd_prescribed_rows *self, double *x);
-/* The largest residual, in scaled velocities, of those of the first `rows` rows that zd_prescribed_rows_solve() has not solved. */
+/* The largest residual, in scaled velocities, of the redundant ones among the first `rows` rows, and of nonholonomic constraints. */
 double zd_prescribed_rows_residual(const zd_prescribed_rows *self, int rows);

@@ -63,7 +63,7 @@ class Defaults:
         return None
 
     def _by_tables(self) -> Self:
-        """The same system, which no run compiles by itself: single runs of an ensemble have the bits of its batches."""
+        """The same system, for which runs choose no compiled equations: an ensemble has the bits of its batches."""
         return self
 
     def _parameter_units(self) -> dict[str, str]:

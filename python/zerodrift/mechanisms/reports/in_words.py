@@ -62,13 +62,13 @@ class Reported(BaseSystem):
         return found.absolute if self.layout == "absolute" else found.joint
 
     def _gains_by_compiling(self, steps: int) -> bool:
-        """True if a run of so many fixed steps saves more than compiling takes, which nothing in the environment refuses."""
+        """True if a run of so many fixed steps saves more than compiling takes, and ZERODRIFT_COMPILE is not 0."""
         is_long = steps >= FEWEST_STEPS and os.environ.get("ZERODRIFT_COMPILE") != "0"
         is_worth = is_long and cost.saved(self._operations, steps) >= WORTH_COMPILING
         return is_worth and (self._why_interpreted(steps) or "").startswith(INTERPRETED)
 
     def _why_interpreted(self, steps: float) -> str | None:
-        """Reason why equations are interpreted, with what code saves in so many steps of "rk4"; None: there is none for these."""
+        """Reason why equations are interpreted, with what code saves in so many steps of "rk4"; None: they have no code."""
         is_served = self.layout == "joint" or self._drawing.dimension == 2
         if not is_served or max(self.nv, self.m) > SMALL_SIZE:
             return None
