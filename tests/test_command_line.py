@@ -1,6 +1,7 @@
 """The command line, `python -m zerodrift`: what it refuses, in words that name what is wrong."""
 
 import os
+import re
 import subprocess
 import sys
 
@@ -26,11 +27,13 @@ def test_the_command_explains_itself(arguments):
     assert "usage: python -m zerodrift" in run.stderr
 
 
-def test_without_a_command_all_are_listed(capsys):
-    assert main([]) == 0
-    printed = capsys.readouterr().out
-    assert "reproduce" in printed
-    assert "gallery" in printed
+def test_without_a_command_each_has_a_line_and_an_example():
+    run = subprocess.run([sys.executable, "-m", "zerodrift"], capture_output=True, text=True, check=True,
+                         env=os.environ | {"COLUMNS": "80"})
+    for name in ("reproduce", "gallery", "explain"):
+        assert re.search(rf"^ +{name} +[A-Z].+$", run.stdout, re.MULTILINE)
+        assert f"\n  python -m zerodrift {name} " in run.stdout
+    assert len(run.stdout.splitlines()) < 22
 
 
 @pytest.mark.parametrize("folder", ["", "  ", "a\0b"], ids=["empty", "blank", "null"])

@@ -1,6 +1,8 @@
 """The names that the package and its modules offer, and what importing it brings along."""
 
 import importlib
+import inspect
+import pydoc
 import re
 import subprocess
 import sys
@@ -33,6 +35,20 @@ def test_the_module_has_what_it_lists():
     assert all(hasattr(zd, name) for name in zd.__all__ if name != "plot")
     with pytest.raises(AttributeError, match="module 'zerodrift' has no attribute 'System2'"):
         _ = zd.System2
+
+
+def test_help_opens_with_tasks_and_has_each_function_with_its_arguments():
+    """Also those that are imported at first use."""
+    opening, _, rest = pydoc.plain(pydoc.render_doc(zd)).partition("PACKAGE CONTENTS")
+    tasks = set(re.findall(r"zd\.(\w+)", opening))
+    assert {"Mechanism", "System", "simulate", "plot", "view", "equilibrium", "linearize", "kinematics", "inverse_dynamics",
+            "ensemble", "load", "fmu"} <= tasks
+    assert tasks < set(zd.__all__)
+    for name in zd.__all__:
+        if inspect.isroutine(getattr(zd, name)):
+            assert re.search(rf"^    {name}\(.*\)", rest, re.MULTILINE), name
+        elif inspect.isclass(getattr(zd, name)):
+            assert re.search(rf"^    class {name}\(", rest, re.MULTILINE), name
 
 
 def test_what_is_not_used_is_not_imported():

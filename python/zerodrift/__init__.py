@@ -1,9 +1,33 @@
-"""Constrained multibody systems without constraint drift.
+"""Mechanisms and other constrained multibody systems, simulated without constraint drift.
 
 >>> import zerodrift as zd
->>> bar = zd.systems.four_bar()
->>> sol = zd.simulate(bar, 8.0, step=0.05, energy=True)
->>> ax = zd.plot.motion(sol)
+>>> sol = zd.simulate(zd.models.slider_crank(), 1.0, step=1e-3)
+>>> forces = sol["pin.force"]
+>>> ax = zd.plot.mechanism(sol, t=0.5)
+
+Call first, by task (``m`` is a mechanism or other system, ``sol`` a solution)::
+
+    build a mechanism           m = zd.Mechanism("name"); m.link, m.body, m.revolute, m.spring, m.motor, ...
+    take a known mechanism      zd.models.slider_crank(), ...; dir(zd.models) lists them
+    write your own equations    zd.System (NumPy), zd.symbolic (SymPy), zd.native (C or numba)
+    simulate                    sol = zd.simulate(m, 10.0)
+    read forces and motions     sol["pin.force"]; m.measures lists names; zd.Instant reads one state
+    plot                        zd.plot.mechanism(sol), zd.plot.measures(sol, ["pin.force"])
+    play a film                 zd.view(sol); with sliders: zd.explore
+    stop at an event            zd.simulate(m, 10.0, events=zd.Event(...))
+    control a run, step by step zd.Run, zd.every; many together: zd.ManyRuns
+    find a state                zd.assemble (closed joints), zd.equilibrium (at rest), zd.equilibria
+    linearize                   zd.linearize(m): modes, frequencies, matrices A, B, C, D
+    prescribe a motion          zd.kinematics(m, ...); without time: zd.trace, zd.reach
+    find forces of a motion     zd.inverse_dynamics
+    vary parameters             zd.ensemble(m, 10.0, parameters=...); zd.grid for all combinations
+    choose settings             zd.tune, zd.work_precision; certified error: zd.reference
+    check equations             zd.check(m)
+    save and load               sol.save, m.save, zd.load; sol.to_csv for other programs
+    use outside Python          zd.fmu(m, ...), zd.c_source(m, ...)
+    understand an error         python -m zerodrift explain CODE
+
+Modules to use: `models`, `systems`, `plot`, `inertia`, `compare`, `errors`. Other modules are the implementation.
 """
 
 import importlib

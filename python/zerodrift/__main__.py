@@ -9,6 +9,14 @@ from pathlib import Path
 
 DEFAULT_FOLDER = Path("zerodrift-figures")
 DEFAULT_GALLERY = Path("zerodrift-gallery")
+EXAMPLES = """examples:
+  python -m zerodrift reproduce --out figures
+  python -m zerodrift gallery --out gallery
+  python -m zerodrift explain branch-jump
+
+In Python: `import zerodrift as zd`; `help(zd)` opens with the function for each
+task.
+"""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -76,17 +84,18 @@ def _folder(given: str) -> Path:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="python -m zerodrift", description="Constrained multibody systems without constraint drift.")
+        prog="python -m zerodrift", description="Constrained multibody systems without constraint drift.", epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(title="commands")
     parser.set_defaults(command=None)
     for name, does, folder, what in (
-            ("reproduce", _reproduce, DEFAULT_FOLDER, "Figures 4-9 of Blajer (2002), and its claims against what we measure"),
-            ("gallery", _gallery, DEFAULT_GALLERY, "All models in motion, with their lines and what there is to see")):
+            ("reproduce", _reproduce, DEFAULT_FOLDER, "Figures 4-9 of Blajer (2002), and its claims checked"),
+            ("gallery", _gallery, DEFAULT_GALLERY, "All models in motion, with the code of each")):
         command = commands.add_parser(name, help=what, description=f"{what}.")
         command.add_argument("--out", type=_folder, default=folder, metavar="DIR",
                              help="folder to write to (default: %(default)s)")
         command.set_defaults(command=does)
-    explaining = commands.add_parser("explain", help="Causes and cures of an error or a warning, by the code in its message",
+    explaining = commands.add_parser("explain", help="Causes and cures of an error, by its code",
                                      description="Causes and cures of an error or a warning.")
     explaining.add_argument("code", nargs="?", metavar="CODE", help="such as branch-jump; left out: all codes")
     explaining.set_defaults(command=_explain)
