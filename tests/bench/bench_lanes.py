@@ -62,7 +62,7 @@ def least_in_a_row(call):
 def runs(end=END, count=RUNS, outputs=("alpha1", "alpha2", "alpha3"), **options):
     """A callable that makes all of them in this thread, and gives what came of them."""
     made = Runs(BAR, None, None, SPEEDS[:count, None] * BAR.v0, None, (), assembles=True)
-    plan = checked(made, end, {"t_eval": [end], **options}, list(outputs), None, keeps=False)
+    plan = checked(made, end, list(outputs), None, keeps=False, t_eval=[end], **options)
     return functools.partial(batch_range, plan, batch_of(plan), 0, count, None)
 
 
@@ -189,7 +189,7 @@ def both_threads():
     """Row: how much faster two threads make them than one; of wall time, so that other work shows."""
     def by(threads):
         plan = checked(Runs(BAR, None, None, np.tile(SPEEDS, 4)[:, None] * BAR.v0, None, (), assembles=True), END,
-                       {"t_eval": [END], "step": STEP}, ["alpha1"], None, keeps=False)
+                       ["alpha1"], None, keeps=False, t_eval=[END], step=STEP)
         ranges = ((first, first + 64) for first in range(0, 4 * RUNS, 64))
         start = time.perf_counter()
         Threads(lambda taken, stop: run_range(plan, *taken, stop), ranges).run(threads, lambda: None)

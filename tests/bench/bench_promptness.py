@@ -60,7 +60,7 @@ def of_ctrl_c():
 def of_a_stop():
     stop, runs = _gateway.Stop(), Runs(BAR, {"gravity": [1.0]}, None, None, None, (), assembles=True)
     sent = after_a_while(stop.set)
-    run_range(checked(runs, 1e6, {"step": 1e-3, "save_every": 10**8}, None, None, keeps=False), 0, 1, stop)
+    run_range(checked(runs, 1e6, None, None, keeps=False, step=1e-3, save_every=10**8), 0, 1, stop)
     return (time.perf_counter() - sent[0]) / BATCH_SLICE
 
 

@@ -249,7 +249,7 @@ def test_a_grip_is_a_force_on_a_point_of_a_body(web, model, link, force):
     number = [body.name for body in start.system._drawing.parts()].index(link)
     at, R = placed(start.system._first_core.poses(start.p[0])[0][number])
     point = R.T @ (start[f"{link}.end.position"][0] - at)
-    block = written(choose(start.system, None, None, 0.0, 1e-3, [], [], {})._replace(has_grip=True))
+    block = written(choose(start.system, None, None, 0.0, 1e-3, [], [])._replace(has_grip=True))
     script = GRIP.replace("BODY", str(number + 1)).replace("POINT", str(point.tolist())).replace("FORCE", str(list(force)))
     (p, poses), = web(script, it=block)
     loaded.force("load", f"{link}.end", value=force)

@@ -17,7 +17,7 @@ def test_every_model_has_a_live_view_with_sliders(exhibit):
 
 
 def words(mechanism):
-    return block.table_words(block.choose(mechanism, None, None, 0.0, 0.01, [], [], {}))
+    return block.table_words(block.choose(mechanism, None, None, 0.0, 0.01, [], []))
 
 
 def test_a_delta_robot_is_changed_by_all_its_sliders_together():

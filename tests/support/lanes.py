@@ -16,7 +16,7 @@ LANES, ALONE = IN_LANES, BY_CORE
 
 def plan_of(system, span, parameters=None, p0=None, v0=None, names=None, **options):
     runs = Runs(system, parameters, p0, v0, None, (), assembles=True)
-    plan = checked(runs, span, options, names, None, keeps=False)
+    plan = checked(runs, span, names, None, keeps=False, **options)
     assert batch_of(plan) is not None
     return plan
 

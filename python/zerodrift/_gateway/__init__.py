@@ -76,7 +76,7 @@ _LATER = {
 }
 
 
-def __getattr__(name: str) -> Any:
+def _at_first_use(name: str) -> Any:
     for module, names in _LATER.items():
         if name in names:
             globals()[name] = found = getattr(importlib.import_module(f".{module}", __name__), name)
@@ -84,4 +84,5 @@ def __getattr__(name: str) -> Any:
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
+__getattr__ = _at_first_use     # assigned, as type checkers then know it before they have read this file
 check_fingerprint()

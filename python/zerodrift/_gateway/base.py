@@ -139,7 +139,7 @@ def cards(table: str) -> tuple[Card, ...]:
     return tuple(map(card_of, rows))
 
 
-def default(table: str) -> str:
+def default(table: str) -> Any:
     """Name of the default entry of a table of the core."""
     return cards(table)[lib.zd_default_entry(TABLES[table])].name
 

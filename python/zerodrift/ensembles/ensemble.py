@@ -144,8 +144,8 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
         raise WrongValue('keep must be left out with a store, which has outputs only; ens[i] repeats run i, with bitwise the '
                          "same result", "conflicting-arguments")
     if store is not None:
-        options["vector"] = options.get("vector") or stores.vector_of(store)
-    plan = checked(runs, t_span, options, outputs, reduce, keeps=keeps)
+        options.update(vector=options.get("vector") or stores.vector_of(store))
+    plan = checked(runs, t_span, outputs, reduce, keeps=keeps, **options)
     if said := plan.drawn_open:
         warnings.warn(said, DrawingWarning, stacklevel=2)
     memory.check(plan.sizes, runs.count, None if store is None else Path(store), stacklevel=2)

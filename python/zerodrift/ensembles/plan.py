@@ -20,7 +20,7 @@ from ..runs.simulate import simulate
 from ..systems.base import BaseSystem, core_of
 from .runs import NoSystem, Runs, named
 
-OPTIONS = settings.Arguments._field_defaults | {"events": None}      # arguments of `simulate`, with their defaults
+OPTIONS = settings.DEFAULTS | {"events": None}      # arguments of `simulate`, with their defaults
 
 
 @dataclass(eq=False)
@@ -88,26 +88,26 @@ class Plan:
         return simulate(system, self.t_span, p, v, **self.options, **options)
 
 
-def checked(runs: Runs, t_span: Any, options: dict[str, Any], outputs: Any, reduce: Any, *, keeps: bool) -> Plan:
+def checked(runs: Runs, t_span: Any, outputs: Any, reduce: Any, *, keeps: bool, **options: Any) -> Plan:
     """Plan whose arguments are checked, with the first system that can be built; nothing is simulated."""
     for name in options:
         if name not in OPTIONS:
             raise WrongType(f"ensemble has no argument {name!r}; simulate, which has the options, takes {', '.join(OPTIONS)}",
                             "wrong-name")
-    options = options | {"vector": settings.vector_unit(options.get("vector"))}
+    options.update(vector=settings.vector_unit(options.get("vector")))
     if reduce is not None and not callable(reduce):
         raise WrongType(f"reduce must be a function of a solution, not {_check.shown(reduce)}")
     names = _names(outputs)
     run, system = _first_system(runs)
     if system is not None:
         span = _check.span(t_span)
-        rows = _check_options(system, span, options)
+        rows = _check_options(system, span, **options)
         _check_names(system, names or [])
         _check_starts(runs, run, system, span[0])
         if names is None:
             names = [] if reduce is not None else [variable.name for variable in system.coordinates]
     if options.get("t_eval") is not None:
-        options["t_eval"] = np.array(options["t_eval"], dtype=float)
+        options.update(t_eval=np.array(options["t_eval"], dtype=float))
     is_tabular = isinstance(runs.made, BaseSystem) and runs.is_tabular(runs.made, run)
     units = {} if system is None else _units(system, names or [])
     sizes = None if system is None or rows is None else tuple(
@@ -156,11 +156,10 @@ def _check_signature(runs: Runs) -> None:
                         f"{error}", "user-function") from None
 
 
-def _check_options(system: BaseSystem, span: tuple[float, float], options: dict[str, Any]) -> int | None:
+def _check_options(system: BaseSystem, span: tuple[float, float], *, events: Any = None, **options: Any) -> int | None:
     """Check options as `simulate` does; return the number of samples of a run, None if not known in advance."""
-    given = options.copy()
-    events_of.events(given.pop("events", None), system)
-    return settings.plan(system, span, settings.Arguments(**given)).rows
+    events_of.events(events, system)
+    return settings.plan(system, span, settings.Arguments(**options)).rows
 
 
 def _row_bytes(system: BaseSystem, names: list[str], *, keeps: bool) -> Iterator[int]:

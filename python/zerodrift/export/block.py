@@ -88,12 +88,12 @@ def block(system: Any, p0: Any = None, v0: Any = None, *, t0: float = 0.0, step:
     >>> data[:7], len(data) % 8
     (b'zdblock', 0)
     """
-    made = choose(system, p0, v0, t0, step, outputs, inputs, chosen)
+    made = choose(system, p0, v0, t0, step, outputs, inputs, **chosen)
     return written(made._replace(limits=_parameters.ranges(parameters or {}, made.system.parameters)))
 
 
 def choose(system: Any, p0: Any, v0: Any, t0: float, step: float | None, outputs: Any, inputs: Sequence[str],
-           chosen: Mapping[str, Any]) -> Chosen:
+           **chosen: Any) -> Chosen:
     """Check the arguments of `block`."""
     t0 = _check.number("t0", t0)
     system, p0, v0 = start_of(system, p0, v0, t0)
@@ -101,7 +101,7 @@ def choose(system: Any, p0: Any, v0: Any, t0: float, step: float | None, outputs
         raise WrongValue(f"user functions must depend on t, positions and velocities in a block, and some of {system.name} read "
                          "reactions", "not-portable")
     p, v = system._state_or_start(p0, v0, t=t0)
-    unknown = chosen.keys() - set(settings.Arguments._fields) | chosen.keys() & {"t_eval", "save_every", "closed_form", "vector"}
+    unknown = chosen.keys() - set(settings.DEFAULTS) | chosen.keys() & {"t_eval", "save_every", "closed_form", "vector"}
     if unknown:
         raise WrongType(f"block() has no argument {min(unknown)!r}", "wrong-name")
     core_settings = settings.plan(

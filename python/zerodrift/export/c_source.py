@@ -63,7 +63,7 @@ def c_source(system: Any, folder: str | Path, *, step: float, outputs: Sequence[
     ['data.h', 'main.c', 'methods.h']
     """
     step = _check.number("step", step, above=0, code="step-size")
-    made = choose(system, p0, v0, t0, step, outputs, inputs, chosen)
+    made = choose(system, p0, v0, t0, step, outputs, inputs, **chosen)
     folder = Path(folder)
     if folder.exists() and any(folder.iterdir()):
         raise ExistingFile(f"the folder must be empty or not exist, and {folder} has files")

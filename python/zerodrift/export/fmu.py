@@ -103,7 +103,7 @@ def fmu(system: Any, path: str | Path, *, step: float, inputs: Sequence[str] = (
     """
     _check.choice("version", version, VERSIONS)
     names = None if platforms is None else chosen_platforms(platforms, version)
-    made = choose(system, p0, v0, t0, _check.number("step", step, above=0, code="step-size"), list(outputs), inputs, chosen)
+    made = choose(system, p0, v0, t0, _check.number("step", step, above=0, code="step-size"), list(outputs), inputs, **chosen)
     watched = chosen_events(events, made.system, version)
     made = made._replace(watched=tuple(each.measure for each in watched if each.measure))
     path = with_suffix(path, ".fmu")

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, Literal, Unpack
 
 from .. import _check, _gateway
-from ..systems.base import BaseSystem
-from .arguments import methods, settings
 from .arguments.inputs import Speeds
+from .arguments.settings import known, with_names
 from .open.beginning import prepared
-from .open.control import called, controls
+from .open.control import Every, called, controls
 from .open.ending import Outcome, finish_file, finished, solution_of
 from .open.keyboard import Keyboard, progress_of
 from .open.run import Run
@@ -19,39 +18,30 @@ from .open.stepping import SLICE
 from .samples import recording
 from .samples.solution import Solution
 
+if TYPE_CHECKING:
+    from .._types import ArrayLike, EventLike, Inputs, MeasureLike, PathLike, SimulateSettings, StateLike, SystemLike
 
+
+@with_names(known)
+def _read(step: Any, t_eval: Any, *, inputs: Inputs | None = None, hold: bool = False, ramp: float | None = None,
+          control: Every | Sequence[Every] | None = None, save_to: PathLike | None = None,
+          progress: bool | Callable[[float], object] = False, on_failure: Literal["raise", "return"] = "raise",
+          **settings: Any) -> tuple[Any, ...]:
+    """Settings of `simulate`: those of steps and methods, and its own, of which controllers and the last are checked."""
+    _check.choice("on_failure", on_failure, ("raise", "return"))
+    given = known("simulate", step, t_eval, **settings)
+    return given, inputs, Speeds(hold, ramp), controls(control), save_to, progress, on_failure
+
+
+@with_names(_read)
 def simulate(
-    system: BaseSystem,
+    system: SystemLike,
     t_span: float | tuple[float, float],
-    p0: Any = None,
-    v0: Any = None,
-    *,
-    step: float | None = None,
-    rtol: float | None = None,
-    atol: float | None = None,
-    first_step: float | None = None,
-    max_step: float | None = None,
-    max_move: float | None = None,
-    max_steps: int | None = settings.MAX_STEPS,
-    t_eval: Any = None,
-    events: Any = None,
-    formulation: str | None = None,
-    integrator: str | None = None,
-    stabilization: str | settings.Stabilization = settings.STABILIZATION,
-    energy: bool | methods.EnergyCorrection | None = None,
-    correction: Any = None,
-    save_every: int = 1,
-    progress: bool | Callable[[float], None] = False,
-    outputs: Any = None,
-    save_to: Any = None,
-    on_singular: str = "stop",
-    closed_form: bool | None = None,
-    vector: str | None = None,
-    on_failure: str = "raise",
-    inputs: Any = None,
-    hold: bool = False,
-    ramp: float | None = None,
-    control: Any = None,
+    p0: StateLike | None = None, v0: ArrayLike | None = None, *,
+    step: float | None = None, t_eval: ArrayLike | None = None,
+    events: EventLike | Sequence[EventLike] | None = None,
+    outputs: Sequence[MeasureLike] | None = None,
+    **settings: Unpack[SimulateSettings],
 ) -> Solution:
     """Simulate the motion of a constrained multibody system.
 
@@ -67,6 +57,25 @@ def simulate(
     step : float, optional
         Size of fixed steps in s. If the span is not a whole number of steps, the last one is shorter. Without it, steps are
         adaptive: the integrator chooses them by its error estimate with `rtol` and `atol`.
+    t_eval : array_like (k,), optional
+        Output times in s, increasing. Left out: the times of the steps; adaptive steps are long, and maxima of forces may lie
+        between them. With adaptive steps, values at output times are from the method's dense output where it has one, otherwise
+        from a shorter step. All values satisfy the constraints.
+    events : callable, Event or measure, or a list of these, optional
+        Functions ``event(t, p, v) -> float``. If one changes its sign within a step, its zero is located to the rounding of t,
+        and the state there is reported in `Solution.t_events`, `p_events` and `v_events`; it satisfies the constraints. At a
+        discontinuity the state after the jump is reported. A zero at the start is not an event. The attribute
+        `direction` = 1 or -1 selects zeros with increasing or decreasing values; `terminal` = True or a count ends the
+        run at the first or at that occurrence, with a step to the zero.
+    outputs : list of measures or names, optional
+        Measures to record with every sample, such as ``["C.force", crank.angle]``, from the accelerations and multipliers of
+        the run. ``sol[name]`` then reads the record, and `Solution.save` includes it. Measures that are not recorded are
+        evaluated by ``sol[name]`` at access; recording is cheaper if many are used.
+    **settings
+        Any of the following.
+
+    Other Parameters
+    ----------------
     rtol, atol : float, optional
         Adaptive steps keep the RMS local error of the state y below ``atol + rtol * abs(y)``; by default 1e-6 and 1e-9. `rtol`
         must be at most 1, `atol` has the units of y. The error of the motion accumulates over the steps and is larger than these;
@@ -82,16 +91,6 @@ def simulate(
         Adaptive steps: number of steps after which the run fails, with a message on the times at which most were taken. It fails
         after 50 already that get nowhere, as where friction is the sign of a speed: `StepFailed` with the code "step-collapse".
         None: unlimited. Fixed steps are not limited.
-    t_eval : array_like (k,), optional
-        Output times in s, increasing. Left out: the times of the steps; adaptive steps are long, and maxima of forces may lie
-        between them. With adaptive steps, values at output times are from the method's dense output where it has one, otherwise
-        from a shorter step. All values satisfy the constraints.
-    events : callable, Event or measure, or a list of these, optional
-        Functions ``event(t, p, v) -> float``. If one changes its sign within a step, its zero is located to the rounding of t,
-        and the state there is reported in `Solution.t_events`, `p_events` and `v_events`; it satisfies the constraints. At a
-        discontinuity the state after the jump is reported. A zero at the start is not an event. The attribute
-        `direction` = 1 or -1 selects zeros with increasing or decreasing values; `terminal` = True or a count ends the
-        run at the first or at that occurrence, with a step to the zero.
     formulation : str or settings, optional
         Equations of motion to solve: a name in `formulations()`, or ``formulations()[name].settings(...)``. By default "schur";
         "augmented" for a mechanism with bodies without mass or inertia whose mass matrix is singular at the start.
@@ -108,10 +107,6 @@ def simulate(
         Number of steps from one sample to the next, at least 1; start and end are always saved.
     progress : bool or callable
         True: show a progress bar (needs tqdm). A callable receives the completed fraction, 0 ... 1, about 30 times a second.
-    outputs : list of measures or names, optional
-        Measures to record with every sample, such as ``["C.force", crank.angle]``, from the accelerations and multipliers of
-        the run. ``sol[name]`` then reads the record, and `Solution.save` includes it. Measures that are not recorded are
-        evaluated by ``sol[name]`` at access; recording is cheaper if many are used.
     save_to : str or Path, optional
         File to which samples are written during the run, for records larger than memory: an array with a structured type,
         which any NumPy opens, with the suffix ``.npy``, which is added if it is missing, and its description with ``.json``.
@@ -219,14 +214,8 @@ def simulate(
     >>> sol.t_events[1].round(4)
     array([0.1287, 0.6498, 1.4803, 2.0013])
     """
-    given = settings.Arguments(
-        t_eval=t_eval, step=step, save_every=save_every, rtol=rtol, atol=atol, first_step=first_step, max_step=max_step,
-        max_move=max_move, max_steps=max_steps, formulation=formulation, integrator=integrator, stabilization=stabilization,
-        energy=energy, correction=correction, on_singular=on_singular, closed_form=closed_form, vector=vector)
-    ready = prepared(system, _check.span(t_span), p0, v0, events, outputs, save_to, given, inputs=inputs,
-                     speeds=Speeds(hold, ramp))
-    of = controls(control)
-    _check.choice("on_failure", on_failure, ("raise", "return"))
+    given, inputs, speeds, of, save_to, progress, on_failure = _read(step, t_eval, **settings)
+    ready = prepared(system, _check.span(t_span), p0, v0, events, outputs, save_to, given, inputs=inputs, speeds=speeds)
     with recording.locked(ready.path), Keyboard(*_gateway.CALLBACK_CODE, _show.__code__, called.__code__) as keyboard:
         controlled = Run.of(ready, of) if of or inputs else None
         run = controlled._core if controlled else ready.created()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -101,7 +101,7 @@ class Bench:
     """Bench: a motion and the reference to which its runs are compared."""
 
     def __init__(self, system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any, reference: Any,
-                 closed_form: bool | None = False) -> None:
+                 closed_form: Literal[False] | None = False) -> None:
         self.system, self.span, self.start, self.closed_form = system, span, (p0, v0), closed_form
         is_certified = isinstance(reference, certified.Reference)
         self.reference_error: float = reference.error_in_double if is_certified else np.nan

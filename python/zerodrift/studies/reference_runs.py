@@ -19,7 +19,7 @@ from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
 from ..systems.base import BaseSystem, core_of
 
-SERIES = "taylor"   # integrator of arbitrary order
+SERIES: Any = "taylor"   # integrator of arbitrary order
 EPS = float(np.finfo(float).eps)
 PROBE = 1e-5        # tolerance of the adaptive run that determines the number of steps
 UNIT = 3            # numbers of steps are multiples of this, as other runs have two and five thirds of them
@@ -57,8 +57,8 @@ class Way:
     """Settings of a run: number of steps, formulation, integrator, and seed of its perturbation by rounding (0: none)."""
 
     steps: int
-    formulation: str
-    integrator: str
+    formulation: Any
+    integrator: Any
     rounding: int = 0
     is_elsewhere: bool = False      # in the other coordinates of a mechanism
 
@@ -67,7 +67,7 @@ class Motion:
     """The motion of a reference: its runs, its size and its speed."""
 
     def __init__(self, system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any, t_eval: Any, stabilization: Any,
-                 formulation: str | None, bounds: dict[str, Any]) -> None:
+                 formulation: Any, bounds: dict[str, Any]) -> None:
         self.system, self.span, self.t_eval, self.stabilization = system, span, t_eval, stabilization
         self.start = system._state_or_start(p0, v0, t=span[0])
         self.is_own_start = p0 is None and v0 is None
@@ -77,8 +77,7 @@ class Motion:
         self.elsewhere: Any = system._in_other_coordinates() if p0 is None and v0 is None else None
         self.elsewhere_failed = False
         taken = methods.evaluating_integrators(system)
-        cards = sorted(taken.values(), key=lambda card: -card.order)    # stable: table order for equal orders
-        self.method, self.other = cards[0].name, cards[1].name
+        self.method, self.other = sorted(taken, key=lambda name: -taken[name].order)[:2]    # stable: table order for equal orders
         with unwarned():
             probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, formulation=formulation, integrator=self.method,
                              stabilization=stabilization, closed_form=False, **bounds)
@@ -94,12 +93,12 @@ class Motion:
         """Largest changes of p and v at samples by rounding of the time."""
         return [_shift(self.probe.t, x, samples) for x in (self.probe.p, self.probe.v)]
 
-    def follows_series(self, formulation: str) -> bool:
+    def follows_series(self, formulation: Any) -> bool:
         """True if Taylor's method can integrate the system in this formulation."""
         chosen = self.probe.settings | {"integrator": SERIES, "formulation": formulation}
         return self.system._brings_perturbed_series and not settings.disagreement(chosen)
 
-    def by_series(self, formulation: str) -> Motion:
+    def by_series(self, formulation: Any) -> Motion:
         """The same motion by Taylor's method in this formulation; the method used so far becomes the one that checks it."""
         found = copy.copy(self)
         found.method, found.other = SERIES, self.method

@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -145,7 +145,7 @@ def work_precision(
     stabilizations: Iterable[str | settings.Stabilization] = (settings.STABILIZATION,),
     energy: Iterable[bool | methods.EnergyCorrection | None] = (None,),
     reference: certified.Reference | Solution | Callable[[float], Any] | None = None,
-    closed_form: bool | None = False,
+    closed_form: Literal[False] | None = False,
     progress: bool | Callable[[float], None] = False,
     rounds: int = 3,
 ) -> WorkPrecision:
@@ -263,7 +263,7 @@ def _names(table: str, available: Iterable[str], chosen: Iterable[str] | None) -
     return [_check.choice(table, name, available) for name in (available if chosen is None else chosen)]
 
 
-def _steps_and_tolerances(integrator: str, steps: Iterable[float], tolerances: Iterable[float]) -> list[tuple[Any, Any]]:
+def _steps_and_tolerances(integrator: Any, steps: Iterable[float], tolerances: Iterable[float]) -> list[tuple[Any, Any]]:
     """Pairs (step, tolerance), one of them None."""
     chooses = methods.integrators()[integrator].error_order
     return [(step, None) for step in steps] + [(None, tolerance) for tolerance in tolerances if chooses]
@@ -271,7 +271,8 @@ def _steps_and_tolerances(integrator: str, steps: Iterable[float], tolerances: I
 
 def default_steps(system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any) -> list[float]:
     """Default fixed steps in s: multiples of the mean adaptive step of an accurate run."""
-    method = max(methods.evaluating_integrators(system).values(), key=lambda card: card.order).name
+    known = methods.evaluating_integrators(system)
+    method = max(known, key=lambda name: known[name].order)
     probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, integrator=method,
                      formulation=next(iter(methods.formulations(system))))
     return [factor * (span[1] - span[0]) / probe.stats["steps"] for factor in STEPS]

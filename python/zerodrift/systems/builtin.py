@@ -137,7 +137,7 @@ def _documentation(kind: _gateway.Kind) -> str:
     named = {"Coordinates p": kind.coordinates, "Velocities v": kind.velocities, "Constraints": kind.constraints}
     for title, variables in named.items():
         lines.append(f"\n{title}: {', '.join(f'{name} [{unit}]' for name, unit in variables) or 'none'}.")
-    lines.append(f"\nSource: {card.equations}" + (f"; {card.reference}." if card.reference else "."))
+    lines += ["", *textwrap.wrap(f"Source: {card.equations}" + (f"; {card.reference}." if card.reference else "."), 100)]
     return "\n".join(lines)
 
 

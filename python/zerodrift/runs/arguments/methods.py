@@ -8,11 +8,14 @@ from __future__ import annotations
 import dataclasses
 import functools
 import textwrap
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ... import _check, _gateway
 from ...errors import WrongValue
 from ...systems.base import BaseSystem, core_of, system_of
+
+if TYPE_CHECKING:
+    from ..._types import Correction, Formulation, Integrator, SystemLike
 
 WIDTH = 100     # characters of a printed line
 
@@ -130,7 +133,7 @@ def _kind(parameter: _gateway.Parameter) -> str:
     return f"{parameter.name} : {KINDS[parameter.rule]}{shape}{unit}{rule}"
 
 
-class CardTable(dict):
+class CardTable(dict[Any, Row]):
     """Cards of a table of the core by name; it prints as a table."""
 
     def __repr__(self) -> str:
@@ -185,13 +188,16 @@ CARDS = {_class_name(card): card for cards in TABLES.values() for card in cards.
 CLASSES = ("Projection", "Baumgarte", "EnergyCorrection")       # of this module, and of the package
 
 
-def __getattr__(name: str) -> Any:
+def _class_named(name: str) -> Any:
     if name in CLASSES:
         return CARDS[name].settings
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
-def formulations(system: BaseSystem | None = None) -> dict[str, Row]:
+__getattr__ = _class_named
+
+
+def formulations(system: SystemLike | None = None) -> dict[Formulation, Row]:
     """Formulations by name: all of them, or those that suit a system.
 
     Examples
@@ -209,7 +215,7 @@ def formulations(system: BaseSystem | None = None) -> dict[str, Row]:
     return CardTable({name: card for row, (name, card) in enumerate(table.items()) if core.suits_formulation(row)})
 
 
-def integrators(system: BaseSystem | None = None) -> dict[str, Row]:
+def integrators(system: SystemLike | None = None) -> dict[Integrator, Row]:
     """Integrators by name: all of them, or those that suit a system.
 
     `order` is the order of the method; `stability` is the largest product omega h of angular frequency and step at which
@@ -226,19 +232,19 @@ def integrators(system: BaseSystem | None = None) -> dict[str, Row]:
     table = TABLES["integrators"]
     if system is None:
         return CardTable(table)
-    system = system_of(system)
-    core = core_of(system)
+    made = system_of(system)
+    core = core_of(made)
     return CardTable({name: card for row, (name, card) in enumerate(table.items())
-                      if core.suits(row) or (_gateway.row_takes_series(row) and system._brings_series)})
+                      if core.suits(row) or (_gateway.row_takes_series(row) and made._brings_series)})
 
 
-def evaluating_integrators(system: BaseSystem) -> dict[str, Row]:
+def evaluating_integrators(system: BaseSystem) -> dict[Integrator, Row]:
     """Integrators that suit a system and need only its terms, no Taylor coefficients."""
-    return {name: card for row, (name, card) in enumerate(TABLES["integrators"].items())
-            if core_of(system).suits(row) and not _gateway.row_takes_series(row)}
+    return CardTable({name: card for row, (name, card) in enumerate(TABLES["integrators"].items())
+                      if core_of(system).suits(row) and not _gateway.row_takes_series(row)})
 
 
-def corrections() -> dict[str, Row]:
+def corrections() -> dict[Correction, Row]:
     """Corrections by name, in the order in which they are applied.
 
     Examples

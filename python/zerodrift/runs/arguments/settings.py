@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import functools
+import inspect
 import math
 import operator
 import os
-from collections.abc import Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -17,6 +19,10 @@ from ...systems.base import BaseSystem, core_of
 from . import methods
 from .methods import ARGUMENTS, TABLES, RowSettings, integrators, name_of, row_of
 
+if TYPE_CHECKING:
+    from ..._types import ArrayLike, Correction, Formulation, Integrator, StabilizationName, VectorUnit
+
+Function = TypeVar("Function", bound=Callable[..., Any])
 CORRECTIONS = TABLES["corrections"]
 STABILIZATIONS = tuple(name for name, argument in ARGUMENTS.items() if argument == "stabilization")
 Stabilization = RowSettings | None
@@ -88,26 +94,54 @@ FINEST_RTOL = 100 * np.finfo(float).eps     # smallest rtol: below it, error est
 RESOLVED = 16 * float(np.finfo(float).eps)      # shortest step, relative to the time
 
 
-class Arguments(NamedTuple):
+@dataclass
+class Arguments:
     """Arguments of `simulate` on samples, steps and methods, as given; all but `t_eval` are the key of a cache."""
 
-    t_eval: Any = None
-    step: Any = None
-    save_every: Any = 1
-    rtol: Any = None
-    atol: Any = None
-    first_step: Any = None
-    max_step: Any = None
-    max_move: Any = None
-    max_steps: Any = MAX_STEPS
-    formulation: Any = None
-    integrator: Any = None
-    stabilization: Any = STABILIZATION
-    energy: Any = None
-    correction: Any = None
-    on_singular: Any = "stop"
-    closed_form: Any = None
-    vector: Any = None
+    t_eval: ArrayLike | None = None
+    step: float | None = None
+    save_every: int = 1
+    rtol: float | None = None
+    atol: float | None = None
+    first_step: float | None = None
+    max_step: float | None = None
+    max_move: float | None = None
+    max_steps: int | None = MAX_STEPS
+    formulation: Formulation | RowSettings | None = None
+    integrator: Integrator | RowSettings | None = None
+    stabilization: StabilizationName | RowSettings | None = STABILIZATION
+    energy: bool | RowSettings | None = None
+    correction: Correction | RowSettings | Sequence[Correction | RowSettings] | None = None
+    on_singular: Literal["stop", "continue"] = "stop"
+    closed_form: Literal[False] | None = None
+    vector: VectorUnit | None = None
+
+
+DEFAULTS = vars(Arguments())
+
+
+def with_names(of: Callable[..., Any]) -> Callable[[Function], Function]:
+    """Decorator that gives a function with `**settings` a signature with their names, as in `of`, for interactive editors."""
+    def changed(function: Function) -> Function:
+        signature = inspect.signature(function)
+        own = dict(list(signature.parameters.items())[:-1])
+        others = [each.replace(kind=each.KEYWORD_ONLY, annotation=each.empty)
+                  for each in inspect.signature(of).parameters.values()
+                  if each.name not in own and each.default is not each.empty]
+        vars(function)["__signature__"] = signature.replace(parameters=[*own.values(), *others])
+        return function
+
+    return changed
+
+
+@with_names(Arguments)
+def known(function: str, step: Any, t_eval: Any, /, **settings: Any) -> Arguments:
+    """Arguments of a run from the settings of a call, by name."""
+    names = list(DEFAULTS)[2:]
+    for name in settings:
+        if name not in names:
+            raise WrongType(f"{function} has no setting {name!r}; {_check.closest(name, names)}", "wrong-name")
+    return Arguments(t_eval, step, **settings)
 
 
 class CheckedSettings(NamedTuple):
@@ -135,9 +169,10 @@ class _Known(NamedTuple):
 
 def plan(system: BaseSystem, span: tuple[float, float], given: Arguments) -> CheckedSettings:
     """Check the arguments of `simulate` and translate them for the core."""
+    others = vars(given) | {"t_eval": None}
     if isinstance(given.correction, list):
-        given = given._replace(correction=tuple(given.correction))
-    key = system._formulation if given.formulation is None else given.formulation, vector_unit(given.vector), *given[1:]
+        others["correction"] = tuple(given.correction)
+    key = system._formulation if given.formulation is None else given.formulation, vector_unit(given.vector), *others.values()
     try:
         found = _plan(*key)
     except TypeError:       # raised for unhashable arguments, too, most of which are wrong: check them without the cache
@@ -158,11 +193,11 @@ def plan(system: BaseSystem, span: tuple[float, float], given: Arguments) -> Che
 # Cached, as the checks take as long as a short run. `typed` keeps 1 and True apart.
 @functools.lru_cache(typed=True)
 def _plan(formulation: Any, vector: str, *others: Any) -> _Known:
-    given = Arguments(None, *others)
+    given = Arguments(*others)
     on_singular_row(given.on_singular)
     if given.closed_form is not None and given.closed_form is not False:
         raise WrongValue(f"closed_form must be None, which uses closed-form functions, or False, not {given.closed_form!r}")
-    integrator = given.integrator
+    integrator: Any = given.integrator
     if integrator is None:
         integrator = CHOOSING if given.step is None else INTEGRATOR
     chosen, corrections, requires = _methods(formulation, integrator, given)

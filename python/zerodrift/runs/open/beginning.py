@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ... import _check, _gateway
-from ...errors import CompilationFailed, CostWarning, DrawingWarning, SingularSystem, WrongType, advised
+from ...errors import CompilationFailed, CostWarning, DrawingWarning, SingularSystem, advised
 from ...systems.base import BaseSystem, closed_form_core_of, core_of
 from ..arguments import events as _events
 from ..arguments import outputs as _outputs
@@ -133,12 +133,3 @@ def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: A
 def nominal_span(t0: float, step: Any) -> tuple[float, float]:
     """Time span of a run without an end, which serves the checks of its start."""
     return t0, t0 + (NOMINAL_SPAN if step is None else NOMINAL_STEPS * _check.number("step", step, above=0, code="step-size"))
-
-
-def known_settings(step: Any, settings: dict[str, Any]) -> Arguments:
-    """Arguments of an open run: the step, other settings of `simulate`, and the defaults."""
-    known = Arguments._fields[2:]
-    for name in settings:
-        if name not in known:
-            raise WrongType(f"Run has no setting {name!r}; {_check.closest(name, known)}", "wrong-name")
-    return Arguments(None, step, **settings)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import contextlib
 import itertools
 import math
+from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
@@ -14,11 +15,15 @@ from ... import _check, _gateway
 from ...errors import WrongValue
 from ...systems.base import closed_form_core_of
 from ..arguments.inputs import Speeds, refuse_unknown
+from ..arguments.settings import known, with_names
 from ..states.reading import Reading
-from .beginning import Prepared, known_settings, nominal_span, prepared
+from .beginning import Prepared, nominal_span, prepared
 from .ending import beyond_reach
 from .run_state import restored, saved, unpacked
 from .threads import processors
+
+if TYPE_CHECKING:
+    from ..._types import ArrayLike, Inputs, MeasureLike, Settings, SystemLike
 
 SMALLEST_PART = 64      # minimum number of runs in a thread
 FEWEST_IN_LANES = 16    # minimum number of runs for which functions in SIMD lanes are compiled
@@ -84,12 +89,14 @@ class ManyRuns:
     (array([1., 1., 1., 1.]), array([0., 1., 1., 1.]))
     """
 
-    def __init__(self, system: Any, p0: Any = None, v0: Any = None, *, runs: int, parameters: Any = None, t0: float = 0.0,
-                 step: float | None = None, inputs: Any = None, hold: bool = False, ramp: float | None = None,
-                 **settings: Any) -> None:
+    @with_names(known)
+    def __init__(self, system: SystemLike, p0: ArrayLike | None = None, v0: ArrayLike | None = None, *, runs: int,
+                 parameters: Mapping[str, ArrayLike] | None = None, t0: float = 0.0, step: float | None = None,
+                 inputs: Inputs | None = None, hold: bool = False, ramp: float | None = None,
+                 **settings: Unpack[Settings]) -> None:
         t0, count = _check.number("t0", t0), _check.count("runs", runs)
         first = _first("p0", p0, count), _first("v0", v0, count)
-        ready = prepared(system, nominal_span(t0, step), *first, None, None, None, known_settings(step, settings),
+        ready = prepared(system, nominal_span(t0, step), *first, None, None, None, known("ManyRuns", step, None, **settings),
                          inputs=inputs, speeds=Speeds(hold, ramp), is_open=True)
         if count >= FEWEST_IN_LANES:
             ready = _in_lanes(ready)
@@ -168,9 +175,9 @@ class ManyRuns:
         is_by_others = self._core.status[i] in (_gateway.BAD_INPUT, _gateway.CALLBACK)
         return (not is_by_others and beyond_reach(ready.of, run, self.settings, ready.span)) or run.message
 
-    def __getitem__(self, name: Any) -> np.ndarray:
+    def __getitem__(self, measure: MeasureLike) -> np.ndarray:
         """Value in every run (runs,), or of a vector (runs, 2) or (runs, 3), by name, as of `Run`."""
-        name = getattr(name, "name", name)
+        name: Any = getattr(measure, "name", measure)
         if name in self._places:
             return self.inputs[:, self._places[name]].copy()
         place = self._ready[0].of._watching.view(name)
@@ -191,9 +198,9 @@ class ManyRuns:
             self._readings[i] = Reading(ready.of, run, ready)
         return self._readings[i]
 
-    def __setitem__(self, name: Any, values: Any) -> None:
+    def __setitem__(self, measure: MeasureLike, values: ArrayLike) -> None:
         """Set an input in every run, from the next step on: a number, or an array (runs,); of an array, (runs, ...)."""
-        name = getattr(name, "name", name)
+        name: Any = getattr(measure, "name", measure)
         if name not in self._places:
             refuse_unknown(self.system, name, self._places)
         self.inputs[:, self._places[name]] = values

@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Unpack
 
 from ... import _check, _gateway
 from ...errors import StateWarning, WrongState, WrongValue
 from ..arguments.inputs import History, Speeds
+from ..arguments.settings import known, with_names
 from ..samples import recording
 from ..samples.solution import Solution
 from . import diagnosis
-from .beginning import Prepared, known_settings, nominal_span, prepared
-from .control import controls
+from .beginning import Prepared, nominal_span, prepared
+from .control import Every, controls
 from .ending import Outcome, finish_file
 from .run_state import restored, saved, unpacked
 from .stepping import Stepping
+
+if TYPE_CHECKING:
+    from ..._types import ArrayLike, EventLike, Inputs, MeasureLike, PathLike, Settings, StateLike, SystemLike
 
 
 class Run(Stepping):
@@ -123,12 +128,15 @@ class Run(Stepping):
     (3.0, 10.5)
     """
 
-    def __init__(self, system: Any, p0: Any = None, v0: Any = None, *, t0: float = 0.0, step: float | None = None,
-                 inputs: Any = None, hold: bool = False, ramp: float | None = None, control: Any = None, record: bool = False,
-                 save_to: Any = None, events: Any = None, outputs: Any = None, **settings: Any) -> None:
+    @with_names(known)
+    def __init__(self, system: SystemLike, p0: StateLike | None = None, v0: ArrayLike | None = None, *, t0: float = 0.0,
+                 step: float | None = None, inputs: Inputs | None = None, hold: bool = False, ramp: float | None = None,
+                 control: Every | Sequence[Every] | None = None, record: bool = False, save_to: PathLike | None = None,
+                 events: EventLike | Sequence[EventLike] | None = None, outputs: Sequence[MeasureLike] | None = None,
+                 **settings: Unpack[Settings]) -> None:
         t0 = _check.number("t0", t0)
-        ready = prepared(system, nominal_span(t0, step), p0, v0, events, outputs, save_to, known_settings(step, settings),
-                         inputs=inputs, speeds=Speeds(hold, ramp), is_open=True)
+        ready = prepared(system, nominal_span(t0, step), p0, v0, events, outputs, save_to,
+                         known("Run", step, None, **settings), inputs=inputs, speeds=Speeds(hold, ramp), is_open=True)
         self._begin(ready, controls(control))
         self._lock = recording.locked(ready.path)
         self._lock.__enter__()
@@ -228,7 +236,7 @@ class Run(Stepping):
         twin.restore(self._saved())
         return twin
 
-    def reset(self, p0: Any = None, v0: Any = None) -> None:
+    def reset(self, p0: ArrayLike | None = None, v0: ArrayLike | None = None) -> None:
         """Go back to the start at t0, with the first inputs; a record begins anew, in memory or in its file.
 
         Parameters
