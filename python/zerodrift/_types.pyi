@@ -12,7 +12,7 @@ from .mechanisms.mechanism import Mechanism as Mechanism
 from .runs.arguments.events import Event
 from .runs.arguments.methods import RowSettings
 from .runs.open.control import Every
-from .runs.states.reading import Reading
+from .runs.states.reading import Reading as Reading
 from .systems.base import BaseSystem
 
 class Expression(Protocol):
@@ -24,11 +24,14 @@ class Expression(Protocol):
 SystemLike = Mechanism | BaseSystem
 StateLike = ArrayLike | Reading
 MeasureLike = Measure | str
+Measures = Sequence[MeasureLike]
 EventLike = Event | Measure | str | Expression | Callable[[float, np.ndarray, np.ndarray], float]
+Events = EventLike | Sequence[EventLike]
 Inputs = MeasureLike | Sequence[MeasureLike] | Mapping[str, tuple[float, float] | None]
 LawLike = float | Expression | Callable[..., Any]
 Bindings = Mapping[str, MeasureLike]
-Values = Mapping[str, float] | Mapping[Measure, float] | Mapping[MeasureLike, float]
+Values = Mapping[str, ArrayLike] | Mapping[Measure, ArrayLike] | Mapping[MeasureLike, ArrayLike]
+Motions = Mapping[str, ArrayLike | LawLike] | Mapping[Measure, ArrayLike | LawLike] | Mapping[MeasureLike, ArrayLike | LawLike]
 PathLike = str | _PathLike[str]
 
 Formulation = Literal['augmented', 'nullspace', 'schur', 'mixed', 'independent']
@@ -67,6 +70,13 @@ class SimulateSettings(Settings, total=False):
     save_to: PathLike | None
     progress: bool | Callable[[float], object]
     on_failure: Literal['raise', 'return']
+
+class EnsembleOptions(Settings, total=False):
+    """Arguments of `simulate` for the runs of an ensemble."""
+
+    step: float | None
+    t_eval: ArrayLike | None
+    events: Events | None
 
 class Projection(RowSettings):
     """Positions and velocities are put back onto the constraints after the step, orthogonally in the mass metric.

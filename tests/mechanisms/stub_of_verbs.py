@@ -6,16 +6,22 @@ PYTHONPATH=python:tests:tests/support python tests/mechanisms/stub_of_verbs.py
 import inspect
 import textwrap
 from pathlib import Path
+from types import SimpleNamespace
 
 from zerodrift.mechanisms.building import table_verbs
+from zerodrift.mechanisms.elements import forces
+from zerodrift.mechanisms.elements.measures import Measure, VectorMeasure
+from zerodrift.mechanisms.elements.space_joints import BY_KIND
+from zerodrift.mechanisms.elements.table_forces import MOMENT
 
 STUB = Path(table_verbs.__file__).with_suffix(".pyi")
 HEAD = '''"""Methods of `Mechanism` made from the core's tables; written by tests/mechanisms/stub_of_verbs.py."""
 
-from typing import Any
-
+from ..._types import ArrayLike, Bindings, LawLike
+from ..elements import forces
 from ..elements.bodies import Body, Point
 from ..elements.joints import Joint
+from ..elements.measures import Measure, VectorMeasure3
 from ..elements.space_joints import SpaceJoint
 from ..elements.table_forces import TableForce
 from .registry import Elements
@@ -24,7 +30,6 @@ PLANE: dict[str, type[Joint]]
 FORCES: dict[str, type[TableForce]]
 Side = Body | Point | str
 
-class TableVerbs(Elements):
 '''
 
 
@@ -44,10 +49,30 @@ def declared(method):
     return "\n".join(lines).replace("~", " ") + f'\n        """{doc}\n        """\n'
 
 
+def measures(kinds):
+    """Measures of an element of these classes, of the plane and of space, by name: a vector if one of them has a vector."""
+    element = SimpleNamespace(measured_name="element", dimension=3)
+    found = [(name, value.fget(element)) for kind in kinds for name, value in vars(kind).items()
+             if (isinstance(value, property) and value.fget.__module__ == Measure.__module__) or value is MOMENT]
+    vectors = {name for name, measure in found if isinstance(measure, VectorMeasure)}
+    return {name: "VectorMeasure3" if name in vectors else "Measure" for name, _ in found}
+
+
+def declared_class(name, base, kinds, numbers=()):
+    """The declaration of the class of an element, with what its entries in the tables define."""
+    attributes = {number: "float" for number in numbers} | measures(kinds)
+    return f"class {name}({base}):\n" + "".join(f"    {name}: {kind}\n" for name, kind in attributes.items()) + (
+        "" if attributes else "    ...\n")
+
+
 def stub():
     """The text of the stub."""
+    joints = [[kind for kind in (table_verbs.PLANE.get(name), BY_KIND.get(name)) if kind] for name in table_verbs.JOINTS]
+    classes = [declared_class(kinds[0].__name__, kinds[0].__base__.__name__, kinds) for kinds in joints]
+    classes += [declared_class(force.__name__, f"forces.{force.__name__}" if hasattr(forces, force.__name__) else "TableForce",
+                               [force], getattr(force, "stored", {}).values()) for force in table_verbs.FORCES.values()]
     methods = [method for name, method in vars(table_verbs.TableVerbs).items() if not name.startswith("_")]
-    return HEAD + "\n".join(map(declared, methods))
+    return HEAD + "\n".join([*classes, "class TableVerbs(Elements):", *map(declared, methods)])
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import zerodrift as zd
 from zerodrift.runs.arguments import methods, settings
-from zerodrift.runs.simulate import _read
+from zerodrift.runs.simulate import _read, simulate
 from zerodrift.systems import builtin
 
 PACKAGE = Path(zd.__file__).parent
@@ -29,7 +29,7 @@ from .mechanisms.mechanism import Mechanism as Mechanism
 from .runs.arguments.events import Event
 from .runs.arguments.methods import RowSettings
 from .runs.open.control import Every
-from .runs.states.reading import Reading
+from .runs.states.reading import Reading as Reading
 from .systems.base import BaseSystem
 
 class Expression(Protocol):
@@ -41,11 +41,14 @@ class Expression(Protocol):
 SystemLike = Mechanism | BaseSystem
 StateLike = ArrayLike | Reading
 MeasureLike = Measure | str
+Measures = Sequence[MeasureLike]
 EventLike = Event | Measure | str | Expression | Callable[[float, np.ndarray, np.ndarray], float]
+Events = EventLike | Sequence[EventLike]
 Inputs = MeasureLike | Sequence[MeasureLike] | Mapping[str, tuple[float, float] | None]
 LawLike = float | Expression | Callable[..., Any]
 Bindings = Mapping[str, MeasureLike]
-Values = Mapping[str, float] | Mapping[Measure, float] | Mapping[MeasureLike, float]
+Values = Mapping[str, ArrayLike] | Mapping[Measure, ArrayLike] | Mapping[MeasureLike, ArrayLike]
+Motions = Mapping[str, ArrayLike | LawLike] | Mapping[Measure, ArrayLike | LawLike] | Mapping[MeasureLike, ArrayLike | LawLike]
 PathLike = str | _PathLike[str]
 
 '''
@@ -111,7 +114,9 @@ def types():
     own = [each for each in inspect.signature(_read).parameters.values()
            if each.kind is each.KEYWORD_ONLY and each.name not in settings.DEFAULTS]
     dictionaries = {"Settings": ("TypedDict, total=False", "Settings of steps and methods, as of `simulate`.", run),
-                    "SimulateSettings": ("Settings, total=False", "Settings of `simulate`.", own)}
+                    "SimulateSettings": ("Settings, total=False", "Settings of `simulate`.", own),
+                    "EnsembleOptions": ("Settings, total=False", "Arguments of `simulate` for the runs of an ensemble.",
+                                        [inspect.signature(simulate).parameters[name] for name in ("step", "t_eval", "events")])}
     return TYPES + "\n".join([
         *(wrapped(f"{name} = Literal[", map(repr, words), "]") for name, words in names.items()), "",
         *(f'class {name}({base}):\n    """{doc}"""\n\n{declared_fields(parameters)}\n'

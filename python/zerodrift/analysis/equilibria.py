@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -12,6 +12,9 @@ from ..runs.states.instant import KnownInstant
 from ..systems.base import BaseSystem, core_of, system_of
 from .equilibrium import equilibrium
 from .path import FIRST_STEP, LARGEST_STEP, Curve, Knot
+
+if TYPE_CHECKING:
+    from .._types import ArrayLike, SystemLike, Values
 
 MAX_STEPS = 5000
 
@@ -63,7 +66,8 @@ def _reading(knot: Knot) -> KnownInstant:
     return KnownInstant(at.system, at.t, at.p, at.v, np.zeros_like(at.v), knot.balance.multipliers[:at.system.m])
 
 
-def equilibria(system: Any, parameter: str, values: Any, *, near: Any = None, t: float = 0.0) -> EquilibriumPath:
+def equilibria(system: SystemLike, parameter: str, values: ArrayLike, *, near: ArrayLike | Values | None = None,
+               t: float = 0.0) -> EquilibriumPath:
     """The equilibria of a system while one of its parameters changes slowly.
 
     The path is followed along its arc length from the stable equilibrium at the first value until the parameter reaches the

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -21,11 +21,14 @@ from .retraction import near_to
 from .state import State, scales, state
 from .steady import Steady
 
+if TYPE_CHECKING:
+    from .._types import ArrayLike, Measures, SystemLike, Values
+
 FAR = 20.0      # characteristic scales: a coordinate that has moved so far does not stop
 
 
-def equilibrium(system: Any, *, near: Any = None, hold: Any = (), v: Any = None, stability: str = "stable",
-                t: float = 0.0) -> Equilibrium:
+def equilibrium(system: SystemLike, *, near: ArrayLike | Values | None = None, hold: Measures = (),
+                v: Values | None = None, stability: Literal["stable", "any"] = "stable", t: float = 0.0) -> Equilibrium:
     """A position in which a system rests under its forces, or a steady motion with given speeds.
 
     Newton's method solves the balance of forces on the tangent space of the constraints, with projection onto these as

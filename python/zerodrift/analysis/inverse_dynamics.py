@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
@@ -20,12 +20,16 @@ from .quantities import components, conjugate, names_of, rates_of, values_of
 from .state import State, scales, small_core, state
 from .tangent import NO_MASS, Tangent
 
+if TYPE_CHECKING:
+    from .._types import ArrayLike, Measures, SystemLike, Values
+
 VIOLATION = 1e-6        # relative to the size: larger violations of the constraints by the given motion are an error
 UNDRIVEN = 1e-9         # relative to the forces: a smaller residual is rounding
 
 
-def inverse_dynamics(system: Any, motion: Any, p: Any = None, v: Any = None, vdot: Any = None, *, efforts: Any = None,
-                     weights: Mapping[Any, float] | None = None) -> Efforts:
+def inverse_dynamics(system: SystemLike, motion: Kinematics | ArrayLike, p: ArrayLike | None = None, v: ArrayLike | None = None,
+                     vdot: ArrayLike | None = None, *, efforts: Measures | None = None,
+                     weights: Values | None = None) -> Efforts:
     """Efforts, reactions and power of a given motion.
 
     The equations of motion (2) are projected onto the velocities that the constraints allow and solved for the efforts; what

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,11 +20,14 @@ from .retraction import near_to, prescribing
 from .state import State, scales, state
 from .tangent import null_space
 
+if TYPE_CHECKING:
+    from .._types import ArrayLike, Motions, SystemLike, Values
+
 INACCURATE = 1e-4           # of the largest second rate: differences of an array over time that are worth a warning
 
 
-def kinematics(system: Any, motion: Mapping[Any, Any], t: Any = None, *, speed: float | None = None,
-               near: Any = None) -> Kinematics:
+def kinematics(system: SystemLike, motion: Motions, t: ArrayLike | None = None, *, speed: float | None = None,
+               near: ArrayLike | Values | None = None) -> Kinematics:
     """Motion of a system by prescribed quantities, without forces and masses; inverse kinematics for the end of a robot.
 
     Positions are tracked sample by sample on one assembly branch. Velocities and accelerations follow from (5) and (6) with the

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,10 +18,14 @@ from .linearization_result import Linearization
 from .quantities import components, conjugate, find, names_of
 from .state import State, scales, sizes_of, state
 
+if TYPE_CHECKING:
+    from .._types import ArrayLike, Measures, Reading, SystemLike, Values
+
 VIOLATION = 1e-6        # of characteristic scales: a state that violates its constraints by more is refused
 
 
-def linearize(system: Any, at: Any = None, *, v: Any = None, inputs: Any = (), outputs: Any = ()) -> Linearization:
+def linearize(system: SystemLike, at: Reading | tuple[float, ArrayLike, ArrayLike] | None = None, *, v: Values | None = None,
+              inputs: Measures = (), outputs: Measures = ()) -> Linearization:
     """The linear motion z' = A z + B u, y = C z + D u near a state, (p, v) = (p0, v0) + basis z.
 
     z are coordinates on the tangent space of all constraints, so that none has to be chosen as dependent. In a steady motion the

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -10,6 +10,9 @@ from .. import _check
 from .quantities import find, names_of
 from .state import State, arguments, scales, state
 from .tangent import Tangent, null_space
+
+if TYPE_CHECKING:
+    from .._types import ArrayLike, MeasureLike, SystemLike
 
 
 def _at(system: Any, p: Any, v: Any, t: float) -> State:
@@ -22,7 +25,7 @@ def _tangent(at: State) -> np.ndarray:
     return null_space(at.C, scales(at.system, at.p).v)
 
 
-def mass_matrix(system: Any, p: Any = None, *, t: float = 0.0, tangent: bool = False) -> np.ndarray:
+def mass_matrix(system: SystemLike, p: ArrayLike | None = None, *, t: float = 0.0, tangent: bool = False) -> np.ndarray:
     """Mass matrix M of (2) at a position.
 
     Parameters
@@ -58,7 +61,8 @@ def mass_matrix(system: Any, p: Any = None, *, t: float = 0.0, tangent: bool = F
     return Z.T @ at.M @ Z
 
 
-def jacobian(system: Any, measure: Any, p: Any = None, *, t: float = 0.0, tangent: bool = False) -> np.ndarray:
+def jacobian(system: SystemLike, measure: MeasureLike, p: ArrayLike | None = None, *, t: float = 0.0,
+             tangent: bool = False) -> np.ndarray:
     """Derivative of the rate of a measure with respect to the velocities.
 
     Its transpose turns an effort, conjugate to the rate of the measure, into generalized forces.
@@ -99,7 +103,8 @@ def jacobian(system: Any, measure: Any, p: Any = None, *, t: float = 0.0, tangen
     return rows @ _tangent(at) if _check.instance("tangent", tangent, bool, "True or False") else rows
 
 
-def bias(system: Any, p: Any = None, v: Any = None, *, t: float = 0.0, tangent: bool = False) -> np.ndarray:
+def bias(system: SystemLike, p: ArrayLike | None = None, v: ArrayLike | None = None, *, t: float = 0.0,
+         tangent: bool = False) -> np.ndarray:
     """Bias d of (2) at a state: the generalized inertial forces that do not depend on the accelerations.
 
     Parameters

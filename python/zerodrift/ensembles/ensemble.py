@@ -5,10 +5,11 @@ from __future__ import annotations
 import threading
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
 from contextlib import nullcontext
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal, Unpack
 
 import numpy as np
 
@@ -27,17 +28,22 @@ from .result import Ensemble
 from .run_range import run_range
 from .runs import Runs
 
+if TYPE_CHECKING:
+    from .._types import ArrayLike, EnsembleOptions, Measures, SystemLike, Values
+
 SHARES = 16         # ranges per thread, so that all threads end at about the same time
 LONGEST = 1024      # largest number of runs in a range; SHORTEST: smallest in SIMD lanes, which idle at the end of a range
 SHORTEST = 32
 TOLD = 3            # doubtful runs that are repeated to find the first with a warning
 
 
-def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None, v0: Any = None, start: Any = None,
-             outputs: Any = None, reduce: Callable[[Solution], Any] | None = None, assemble: bool = True, hold: Any = (),
-             executor: Any = None, threads: int | None = None, chunk: int | None = None, store: Any = None,
-             keep: str | None = None, progress: bool | Callable[[float], None] = False,
-             **options: Any) -> Ensemble:
+def ensemble(system: SystemLike | Callable[..., SystemLike], t_span: float | tuple[float, float], *,
+             parameters: Mapping[str, ArrayLike] | Sequence[Mapping[str, Any]] | None = None, p0: ArrayLike | None = None,
+             v0: ArrayLike | None = None, start: Values | None = None, outputs: Measures | None = None,
+             reduce: Callable[[Solution], Any] | None = None, assemble: bool = True, hold: Measures = (),
+             executor: Literal["processes"] | Executor | None = None, threads: int | None = None, chunk: int | None = None,
+             store: str | Path | None = None, keep: Literal["solutions"] | None = None,
+             progress: bool | Callable[[float], object] = False, **options: Unpack[EnsembleOptions]) -> Ensemble:
     """Simulate many runs with varied parameters or initial states.
 
     Runs execute in threads, or in the workers of an executor. Results do not depend on their number or order. Failed runs are
@@ -144,7 +150,7 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
         raise WrongValue('keep must be left out with a store, which has outputs only; ens[i] repeats run i, with bitwise the '
                          "same result", "conflicting-arguments")
     if store is not None:
-        options.update(vector=options.get("vector") or stores.vector_of(store))
+        options.update({"vector": options.get("vector") or stores.vector_of(store)})
     plan = checked(runs, t_span, outputs, reduce, keeps=keeps, **options)
     if said := plan.drawn_open:
         warnings.warn(said, DrawingWarning, stacklevel=2)

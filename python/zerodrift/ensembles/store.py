@@ -35,7 +35,7 @@ def is_one(path: str | Path) -> bool:
     return (Path(path) / MANIFEST).is_file()
 
 
-def vector_of(folder: str | Path) -> str | None:
+def vector_of(folder: str | Path) -> Any:
     """Vector unit with which a store began; None for a new store.
 
     Raises

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
 import numpy as np
 
@@ -22,6 +22,9 @@ from ..systems.base import core_of, system_of
 from . import parameters as _parameters
 from .grip import Grip
 from .law_programs import Programs
+
+if TYPE_CHECKING:
+    from .._types import ArrayLike, Measures, Settings, SystemLike
 
 MAX_MEASURES = 8192        # of a system of the core
 TABLES = blocks.SECTIONS[:blocks.SECTIONS.index("start")]      # sections whose words parameters may change
@@ -41,8 +44,9 @@ class Chosen(NamedTuple):
     has_grip: bool = False          # a force on a point of a body, see `grip`
 
 
-def block(system: Any, p0: Any = None, v0: Any = None, *, t0: float = 0.0, step: float | None = 0.01, outputs: Any = None,
-          inputs: Sequence[str] = (), parameters: Mapping[str, tuple[float, float]] | None = None, **chosen: Any) -> bytes:
+def block(system: SystemLike, p0: ArrayLike | None = None, v0: ArrayLike | None = None, *, t0: float = 0.0,
+          step: float | None = 0.01, outputs: Measures | None = None, inputs: Sequence[str] = (),
+          parameters: Mapping[str, tuple[float, float]] | None = None, **chosen: Unpack[Settings]) -> bytes:
     """A mechanism as one block of data: tables, user functions, start, measures, inputs, and the settings of a run.
 
     The core makes a system of it without Python. Its format is described in ``block.h`` of the core's sources: words of eight

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from importlib import resources
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 
@@ -15,9 +15,13 @@ from ..errors import ExistingFile
 from .block import Chosen, choose, written
 from .core_files import ENTRIES, CoreFiles, entry
 
+if TYPE_CHECKING:
+    from .._types import ArrayLike, Measures, Settings, SystemLike
 
-def c_source(system: Any, folder: str | Path, *, step: float, outputs: Sequence[Any] = (), p0: Any = None, v0: Any = None,
-             t0: float = 0.0, inputs: Sequence[str] = (), **chosen: Any) -> Path:
+
+def c_source(system: SystemLike, folder: str | Path, *, step: float, outputs: Measures = (),
+             p0: ArrayLike | None = None, v0: ArrayLike | None = None, t0: float = 0.0, inputs: Sequence[str] = (),
+             **chosen: Unpack[Settings]) -> Path:
     """Write a mechanism as a folder of C11 sources, with a program that simulates it.
 
     The folder has the files of the core that this mechanism and its methods need, the mechanism as one block (see `block`)

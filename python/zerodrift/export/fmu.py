@@ -8,7 +8,7 @@ import re
 import zipfile
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Unpack
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
@@ -23,6 +23,9 @@ from .core_files import CoreFiles
 from .fmu_events import Level, chosen_events, table
 from .fmu_libraries import chosen_platforms, libraries
 from .wasm import text
+
+if TYPE_CHECKING:
+    from .._types import ArrayLike, Events, Measures, Settings, SystemLike
 
 VERSIONS = ("3.0", "2.0")
 OPENED = ("block/open_run/opened.c", "block/open_run/opened_states.c")
@@ -41,9 +44,9 @@ class Scalar(NamedTuple):
     start: float
 
 
-def fmu(system: Any, path: str | Path, *, step: float, inputs: Sequence[str] = (), outputs: Sequence[Any] = (),
-        events: Any = None, version: str = "3.0", platforms: Sequence[str] | None = None, p0: Any = None, v0: Any = None,
-        t0: float = 0.0, **chosen: Any) -> Path:
+def fmu(system: SystemLike, path: str | Path, *, step: float, inputs: Sequence[str] = (), outputs: Measures = (),
+        events: Events | None = None, version: str = "3.0", platforms: Sequence[str] | None = None,
+        p0: ArrayLike | None = None, v0: ArrayLike | None = None, t0: float = 0.0, **chosen: Unpack[Settings]) -> Path:
     """Write a mechanism as a functional mock-up unit (FMU) for co-simulation, as Simulink, Dymola and FMPy import it.
 
     The file has the mechanism as a block of data (see `block`), the core's sources, and a library for this platform, which the C

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,12 +16,15 @@ from .elements.bodies import Point
 from .elements.numbers import AS_GIVEN
 from .mechanism import Mechanism
 
+if TYPE_CHECKING:
+    from .._types import ArrayLike
+
 GROUND = "ground"
 
 
-def linkage(points: Mapping[str, Any], links: Mapping[str, Any], *, lengths: Mapping[Any, float] | None = None,
-            mass: float | Mapping[str, float] = 1.0, scale: float = 1.0, gravity: Any = None,
-            name: str = "linkage") -> Mechanism:
+def linkage(points: Mapping[str, ArrayLike], links: Mapping[str, str | Sequence[str]], *,
+            lengths: Mapping[str, float] | Mapping[tuple[str, str], float] | None = None, mass: float | Mapping[str, float] = 1.0,
+            scale: float = 1.0, gravity: ArrayLike | None = None, name: str = "linkage") -> Mechanism:
     """Mechanism of links and hinges, assembled from a sketch.
 
     Parameters

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Literal
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .. import _check
 from .._writing import with_suffix, write_atomically
@@ -72,7 +73,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
     >>> bar.start({crank.angle: np.pi / 2, crank.angular_velocity: 1.0})
     """
 
-    def __init__(self, name: str, *, dimension: int = 2, gravity: Any = None,
+    def __init__(self, name: str, *, dimension: int = 2, gravity: ArrayLike | None = None,
                  parameters: Mapping[str, float] | None = None) -> None:
         if not isinstance(name, str) or not name:
             raise WrongType(f"name must be a string that is not empty, not {_check.shown(name)}")
@@ -82,7 +83,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         self.gravity = np.zeros(self.dimension) if gravity is None else _check.vector("gravity", gravity, self.dimension)
         super().__init__(parameters)
 
-    def system(self, coordinates: str | None = None, compiled: bool | None = None) -> MechanismSystem:
+    def system(self, coordinates: Literal["joint", "absolute"] | None = None, compiled: bool | None = None) -> MechanismSystem:
         """The equations of the mechanism as it is now; what is added later does not change them.
 
         Parameters
@@ -211,7 +212,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
     def v0(self) -> np.ndarray:
         return self.system().v0
 
-    def points(self, p: Any) -> np.ndarray | None:
+    def points(self, p: ArrayLike) -> np.ndarray | None:
         """The drawing at p, as of its `system`: points (n, dimension) in m, joined by lines where not NaN.
 
         Examples
@@ -223,7 +224,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         """
         return self.system().points(p)
 
-    def evaluate(self, p: Any = None, v: Any = None, t: float = 0.0) -> Terms:
+    def evaluate(self, p: ArrayLike | None = None, v: ArrayLike | None = None, t: float = 0.0) -> Terms:
         """The terms of the equations of motion of its `system` at (t, p, v); left out: where it starts.
 
         Examples

@@ -5,23 +5,24 @@ from __future__ import annotations
 import functools
 import inspect
 from collections.abc import Callable
-from typing import Any
+from typing import ParamSpec
 
 from .. import _check
 from ..errors import WrongType
 from ..mechanisms.mechanism import Mechanism
 
+Given = ParamSpec("Given")
 NOT_NEGATIVE = ("mass", "inertia", "stiffness", "damping", "density")      # quantities, as the last word of an argument's name
 
 
-def checked(model: Callable[..., Mechanism]) -> Callable[..., Mechanism]:
+def checked(model: Callable[Given, Mechanism]) -> Callable[Given, Mechanism]:
     """A model whose arguments that are annotated as float are finite numbers, at least 0 where they have to be."""
     signature = inspect.signature(model)
     numbers = [name for name, parameter in signature.parameters.items() if str(parameter.annotation).startswith("float")
                and parameter.kind is not parameter.VAR_KEYWORD]
 
     @functools.wraps(model)
-    def make(*given: Any, **named: Any) -> Mechanism:
+    def make(*given: Given.args, **named: Given.kwargs) -> Mechanism:
         try:
             taken = signature.bind(*given, **named)
         except TypeError as error:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .. import _check
 from ..mechanisms.linkage import linkage
@@ -13,7 +14,8 @@ from ._arguments import checked
 
 
 @checked
-def chebyshev_lambda(*, crank: float = 0.1, speed: float = 2 * np.pi, mass: Any = 0.2, gravity: Any = None) -> Mechanism:
+def chebyshev_lambda(*, crank: float = 0.1, speed: float = 2 * np.pi, mass: float | Mapping[str, float] = 0.2,
+                     gravity: ArrayLike | None = None) -> Mechanism:
     """The four-bar of Chebyshev's plantigrade machine: its ground is 2, coupler and rocker are 2.5 cranks long.
 
     The coupler goes on beyond its hinge with the rocker by 2.5 cranks more, to ``P``. In the first half of a turn P goes along a

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .. import _check
 from ..errors import WrongValue
@@ -13,7 +12,7 @@ from ._arguments import checked
 
 
 @checked
-def four_bar(*, lengths: Any = (1.0, 0.3, 1.0, 0.6), masses: Any = (1.5, 5.0, 3.0), gravity: float = 9.81,
+def four_bar(*, lengths: ArrayLike = (1.0, 0.3, 1.0, 0.6), masses: ArrayLike = (1.5, 5.0, 3.0), gravity: float = 9.81,
              crank_angle: float = np.pi / 2, crank_rate: float = 1.0) -> Mechanism:
     """The paper's first example: crank, coupler and rocker under gravity, from bodies and joints.
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .. import _check
 from ..errors import WrongValue
@@ -14,8 +15,8 @@ from ._arguments import checked
 
 
 @checked
-def hoecken(*, crank: float = 0.1, ground: float = 2.5, coupler: float = 3.25, speed: float = 2 * np.pi, mass: Any = 0.2,
-            gravity: Any = None) -> Mechanism:
+def hoecken(*, crank: float = 0.1, ground: float = 2.5, coupler: float = 3.25, speed: float = 2 * np.pi,
+            mass: float | Mapping[str, float] = 0.2, gravity: ArrayLike | None = None) -> Mechanism:
     """A crank-rocker whose rocker and both halves of the coupler are equally long; its point ``P`` draws a line.
 
     The proportions are those that Norton tables as the straightest over 140 degrees of the crank: there, while the crank turns

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
@@ -18,7 +19,8 @@ LENGTHS = {"ZX": 15, "XV": 50, "XU": 61.9, "YV": 41.5, "VW": 55.8, "YW": 40.1, "
 
 
 @checked
-def jansen(*, speed: float = -2 * np.pi, mass: Any = 1.0, scale: float = 0.01, gravity: Any = (0.0, -9.81)) -> Mechanism:
+def jansen(*, speed: float = -2 * np.pi, mass: float | Mapping[str, float] = 1.0, scale: float = 0.01,
+           gravity: ArrayLike = (0.0, -9.81)) -> Mechanism:
     """The leg of Jansen's walking machines: one crank, seven links, and a foot whose path is flat below.
 
     The links are ``crank``, ``j``, ``k``, ``bed``, ``c``, ``f`` and ``foot``, the motor is ``drive``, and the toe is ``F``.

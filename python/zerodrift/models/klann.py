@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
@@ -18,7 +19,8 @@ LENGTHS = {"OM": 0.268, "MC": 0.590, "CD": 0.522, "MD": 1.105, "BC": 0.321, "AE"
 
 
 @checked
-def klann(*, speed: float = -2 * np.pi, mass: Any = 1.0, scale: float = 0.4, gravity: Any = (0.0, -9.81)) -> Mechanism:
+def klann(*, speed: float = -2 * np.pi, mass: float | Mapping[str, float] = 1.0, scale: float = 0.4,
+          gravity: ArrayLike = (0.0, -9.81)) -> Mechanism:
     """The leg of Klann's walking machines: a crank, two rockers, a connecting rod and the leg, six bars of Stephenson's kind.
 
     The foot, ``F``, is on the ground for half of a turn and lifted high in the other half. The links are ``crank``,

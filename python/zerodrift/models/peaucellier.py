@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .. import _check
 from ..errors import WrongValue
@@ -16,7 +17,7 @@ from ._swing import swing
 
 @checked
 def peaucellier(*, arm: float = 0.25, side: float = 0.12, crank: float = 0.1, amplitude: float = 1.2, rate: float = 2 * np.pi,
-                mass: Any = 0.2, gravity: Any = None) -> Mechanism:
+                mass: float | Mapping[str, float] = 0.2, gravity: ArrayLike | None = None) -> Mechanism:
     """A rhombus on two arms: its near corner ``Q`` goes on a circle through ``O``, and its far corner ``P`` on a line.
 
     O P is (arm^2 - side^2) / O Q, which is an inversion, and so the line is x = (arm^2 - side^2) / (2 crank). The crank ``AQ``

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
@@ -19,7 +20,8 @@ LINKS = {"ground": "ADF", "crank": "AB", "coupler": "BCE", "rocker": "DC", "link
 
 
 @checked
-def stephenson(*, speed: float = 2 * np.pi, mass: Any = 0.2, scale: float = 1.0, gravity: Any = None) -> Mechanism:
+def stephenson(*, speed: float = 2 * np.pi, mass: float | Mapping[str, float] = 0.2, scale: float = 1.0,
+               gravity: ArrayLike | None = None) -> Mechanism:
     """A crank ``AB``, a coupler with three hinges, ``BCE``, two rockers on the ground, ``DC`` and ``FG``, and a link ``EG``.
 
     The shortest bar of the four-bar A B C D is the crank's and turns round; the second rocker swings as the coupler's curve has

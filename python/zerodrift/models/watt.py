@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .. import _check
 from ..errors import WrongValue
@@ -15,8 +16,8 @@ from ._swing import swing
 
 
 @checked
-def watt(*, rocker: float = 0.5, coupler: float = 0.2, amplitude: float = 0.35, rate: float = 2 * np.pi, mass: Any = 0.2,
-         gravity: Any = None) -> Mechanism:
+def watt(*, rocker: float = 0.5, coupler: float = 0.2, amplitude: float = 0.35, rate: float = 2 * np.pi,
+         mass: float | Mapping[str, float] = 0.2, gravity: ArrayLike | None = None) -> Mechanism:
     """Two equal rockers, level in the middle position, and an upright coupler between them, whose middle ``P`` goes up and down.
 
     P stays on Watt's curve, an eight with a nearly straight piece through the middle. The links are ``left``, ``coupler`` and

@@ -6,7 +6,7 @@ import html
 import inspect
 import secrets
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .. import _check
 from ..errors import MissingPackage, WrongType, WrongValue, ZerodriftError
@@ -14,6 +14,9 @@ from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
 from .scene import Wanted
 from .view import View
+
+if TYPE_CHECKING:
+    from .._types import SystemLike
 
 STEPS = 100         # of a slider
 SHOWN = ("forces", "path", "graphs", "names", "speed")      # arguments of `view`; all others are those of `simulate`
@@ -131,7 +134,8 @@ class Exploration:
         return f"<exploration of {values}: {message}>"
 
 
-def explore(system: Any, parameters: Mapping[str, tuple[float, float]], t_span: Any = 10.0, **options: Any) -> Exploration:
+def explore(system: SystemLike | Callable[..., SystemLike], parameters: Mapping[str, tuple[float, float]],
+            t_span: float | tuple[float, float] = 10.0, **options: Any) -> Exploration:
     """Sliders that simulate again while they are dragged, above the film and its graphs.
 
     Parameters
@@ -170,12 +174,13 @@ def explore(system: Any, parameters: Mapping[str, tuple[float, float]], t_span: 
     if inspect.isroutine(system) or inspect.isfunction(system):
         own = {name: each.default for name, each in inspect.signature(system).parameters.items()}
         return Exploration(lambda values: system(**values), t_span, ranges, _first(ranges, own), options)
-    whole = system.system() if hasattr(system, "system") else system
+    made: Any = system
+    whole = made.system() if hasattr(made, "system") else made
     unknown = [name for name in ranges if name not in whole.parameters]
     if unknown:
         raise WrongValue(f"parameters must be those of {whole.name}, {', '.join(whole.parameters)}, not {unknown[0]!r}",
                          "wrong-name")
-    return Exploration(system.with_parameters, t_span, ranges, _first(ranges, whole.parameters), options)
+    return Exploration(made.with_parameters, t_span, ranges, _first(ranges, whole.parameters), options)
 
 
 def _ranges(parameters: Mapping[str, Any]) -> dict[str, tuple[float, float]]:

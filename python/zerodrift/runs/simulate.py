@@ -19,7 +19,7 @@ from .samples import recording
 from .samples.solution import Solution
 
 if TYPE_CHECKING:
-    from .._types import ArrayLike, EventLike, Inputs, MeasureLike, PathLike, SimulateSettings, StateLike, SystemLike
+    from .._types import ArrayLike, Events, Inputs, Measures, PathLike, SimulateSettings, StateLike, SystemLike
 
 
 @with_names(known)
@@ -39,8 +39,8 @@ def simulate(
     t_span: float | tuple[float, float],
     p0: StateLike | None = None, v0: ArrayLike | None = None, *,
     step: float | None = None, t_eval: ArrayLike | None = None,
-    events: EventLike | Sequence[EventLike] | None = None,
-    outputs: Sequence[MeasureLike] | None = None,
+    events: Events | None = None,
+    outputs: Measures | None = None,
     **settings: Unpack[SimulateSettings],
 ) -> Solution:
     """Simulate the motion of a constrained multibody system.

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,6 +12,9 @@ from ..errors import WrongValue
 from ..runs.samples.solution import Solution
 from .precise_values import EventTimes, Quantity, Runs, Samples, located, value_of
 from .reference_runs import Difference
+
+if TYPE_CHECKING:
+    from .._types import ArrayLike, Bindings
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -75,7 +77,7 @@ class Reference:
         """Low parts of the velocities, (k, nv); zero in double precision."""
         return np.zeros(self.v.shape) if self.low is None else self.low[1]
 
-    def at(self, t: Any) -> Samples:
+    def at(self, t: ArrayLike) -> Samples:
         """The motion at any times from the first to the last sample, beyond double precision.
 
         Parameters
@@ -103,7 +105,7 @@ class Reference:
         """
         return self._runs_at(t).samples()
 
-    def measure(self, what: Any, t: Any = None, *, of: Mapping[str, Any] | None = None) -> Quantity:
+    def measure(self, what: Any, t: ArrayLike | None = None, *, of: Bindings | None = None) -> Quantity:
         """Values of a measure beyond double precision.
 
         Parameters

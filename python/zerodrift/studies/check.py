@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,6 +14,9 @@ from ..errors import ZerodriftError
 from ..runs.arguments.methods import Projection
 from ..runs.states.operations import acceleration, project
 from ..systems.base import BaseSystem, Terms, core_of, system_of
+
+if TYPE_CHECKING:
+    from .._types import ArrayLike, SystemLike
 
 STEP = np.finfo(float).eps ** (1 / 3)   # of a central difference, relative to the varied quantity
 AGREE = 1e-5                            # relative: far above the error 1e-10 of a difference, far below any mistake
@@ -50,7 +53,8 @@ class Report:
         return head + ("nothing wrong" if self else "\n".join(["", *(f"  * {problem}" for problem in self.problems)]))
 
 
-def check(system: BaseSystem, p: Any = None, v: Any = None, t: float = 0.0, *, samples: int = 5, seed: int = 0) -> Report:
+def check(system: SystemLike, p: ArrayLike | None = None, v: ArrayLike | None = None, t: float = 0.0, *, samples: int = 5,
+          seed: int = 0) -> Report:
     """Check the terms of a system against derivatives, symmetry, definiteness and the balance of power.
 
     Derivatives are central differences, which share no code with the terms to which they are compared.

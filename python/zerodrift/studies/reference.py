@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .. import _check
 from .._gateway.compiled.precise import Precise
@@ -16,24 +16,27 @@ from .reference_precise import PRECISIONS, PreciseSearch, functions_of
 from .reference_runs import Difference, Motion
 from .reference_search import SPACING, Search, SearchBySeries
 
+if TYPE_CHECKING:
+    from .._types import ArrayLike, Formulation, StabilizationName, SystemLike
+
 __all__ = ["Difference", "Reference", "reference"]
 
 EVIDENCE = 1e-9     # part of the motion's size, certified in double precision before an error beyond it
 
 
 def reference(
-    system: BaseSystem,
+    system: SystemLike,
     t_span: float | tuple[float, float],
-    p0: Any = None,
-    v0: Any = None,
+    p0: ArrayLike | None = None,
+    v0: ArrayLike | None = None,
     *,
     error: float | None = None,
     first_step: float | None = None,
     max_step: float | None = None,
     max_move: float | None = None,
-    t_eval: Any = None,
-    formulations: tuple[str, str] | None = None,
-    stabilization: str | settings.Stabilization = settings.STABILIZATION,
+    t_eval: ArrayLike | None = None,
+    formulations: tuple[Formulation, Formulation] | None = None,
+    stabilization: StabilizationName | settings.Stabilization = settings.STABILIZATION,
     precision: str | None = None,
 ) -> Reference:
     """Compute a motion with a certified error.

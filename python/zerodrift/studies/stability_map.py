@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,6 +17,9 @@ from ..systems.base import BaseSystem, system_of
 from . import reference as certified
 from .bench import Bench, Row, Setting
 from .work_precision import default_steps, not_excluded
+
+if TYPE_CHECKING:
+    from .._types import ArrayLike, SystemLike
 
 GAINS = tuple(np.geomspace(1.0, 1000.0, 13))    # 1/s: default values of the parameter, alpha of Baumgarte's method
 OPTIONS = {"formulation": settings.FORMULATION, "integrator": settings.INTEGRATOR, "stabilization": settings.STABILIZATION,
@@ -80,10 +83,10 @@ class StabilityMap:
 
 
 def stability_map(
-    system: BaseSystem | Callable[[float], BaseSystem],
+    system: SystemLike | Callable[[float], SystemLike],
     t_span: float | tuple[float, float],
-    p0: Any = None,
-    v0: Any = None,
+    p0: ArrayLike | None = None,
+    v0: ArrayLike | None = None,
     *,
     steps: Iterable[float] | None = None,
     parameter: str | None = None,

@@ -6,15 +6,18 @@ import dataclasses
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .. import _check
 from ..errors import Interrupted, UnreachableTolerance, WrongValue
 from ..runs.arguments.settings import FINEST_RTOL
-from ..systems.base import BaseSystem, system_of
+from ..systems.base import system_of
 from . import reference as certified
 from .bench import Bench, Row, Setting
 from .work_precision import WorkPrecision, found, measured, not_excluded, work_precision
+
+if TYPE_CHECKING:
+    from .._types import ArrayLike, Formulation, Integrator, SystemLike
 
 EXTENSIONS = 6      # the largest number of steps beyond those of the first sweep
 REFINEMENTS = 3     # each halves the logarithm of the factor between two neighbouring steps
@@ -47,15 +50,15 @@ class Tuning:
 
 
 def tune(
-    system: BaseSystem,
+    system: SystemLike,
     t_span: float | tuple[float, float],
-    p0: Any = None,
-    v0: Any = None,
+    p0: ArrayLike | None = None,
+    v0: ArrayLike | None = None,
     *,
     error: float | None = None,
     budget: float | None = None,
-    formulations: Iterable[str] | None = None,
-    integrators: Iterable[str] | None = None,
+    formulations: Iterable[Formulation] | None = None,
+    integrators: Iterable[Integrator] | None = None,
     progress: bool | Callable[[float], None] = False,
     rounds: int = 5,
 ) -> Tuning:

@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -24,6 +24,9 @@ from ..runs.states.operations import acceleration
 from ..systems.base import BaseSystem, system_of
 from . import reference as certified
 from .bench import Bench, Row, Setting
+
+if TYPE_CHECKING:
+    from .._types import ArrayLike, EnergyCorrection, Formulation, Integrator, StabilizationName, SystemLike
 
 PROBE = 1e-6                                        # tolerance of the run whose mean step defines the default steps
 STEPS = tuple(2.0**-k for k in range(-2, 5))        # default steps as multiples of it
@@ -133,17 +136,17 @@ def _cells(row: Row) -> tuple[str, ...]:
 
 
 def work_precision(
-    system: BaseSystem,
+    system: SystemLike,
     t_span: float | tuple[float, float],
-    p0: Any = None,
-    v0: Any = None,
+    p0: ArrayLike | None = None,
+    v0: ArrayLike | None = None,
     *,
-    formulations: Iterable[str] | None = None,
-    integrators: Iterable[str] | None = None,
+    formulations: Iterable[Formulation] | None = None,
+    integrators: Iterable[Integrator] | None = None,
     steps: Iterable[float] | None = None,
     tolerances: Iterable[float] | None = None,
-    stabilizations: Iterable[str | settings.Stabilization] = (settings.STABILIZATION,),
-    energy: Iterable[bool | methods.EnergyCorrection | None] = (None,),
+    stabilizations: Iterable[StabilizationName | settings.Stabilization] = (settings.STABILIZATION,),
+    energy: Iterable[bool | EnergyCorrection | None] = (None,),
     reference: certified.Reference | Solution | Callable[[float], Any] | None = None,
     closed_form: Literal[False] | None = False,
     progress: bool | Callable[[float], None] = False,
@@ -204,7 +207,6 @@ def work_precision(
     taken, able = methods.integrators(system), _able(system, span, p0, v0) if formulations is None else formulations
     formulations = _names("formulations", methods.formulations(), able)
     integrators = _names("integrators", methods.integrators(), taken if integrators is None else integrators)
-    stabilizations, energy = map(settings.stabilization, stabilizations), map(settings.energy, energy)
     steps = default_steps(system, span, p0, v0) if steps is None else [
         _check.number("steps", each, above=0, code="step-size") for each in steps]
     tolerances = TOLERANCES if tolerances is None else [
@@ -212,7 +214,7 @@ def work_precision(
     combinations = [
         Setting(formulation, integrator, *fineness, stabilization, corrected)
         for formulation, integrator, stabilization, corrected in itertools.product(
-            formulations, integrators, stabilizations, energy)
+            formulations, integrators, map(settings.stabilization, stabilizations), map(settings.energy, energy))
         for fineness in _steps_and_tolerances(integrator, steps, tolerances)]
     combinations = [setting for setting in combinations if not settings.disagreement(setting.settings)]
     if not combinations:
@@ -246,7 +248,7 @@ def found(bench: Bench, rows: Iterable[Row], rounds: int, complete: bool = True)
 
 def _able(system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any) -> list[str]:
     """Formulations that suit the system at its start: some invert a mass matrix that may be singular."""
-    def can(name: str) -> bool:
+    def can(name: Any) -> bool:
         try:
             acceleration(system, *system._state_or_start(p0, v0, t=span[0]), span[0], name)
         except SingularSystem:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from numpy.typing import ArrayLike
+
 from ..errors import MissingPackage
 
 try:
@@ -32,8 +34,8 @@ def symbolic(
     coordinates: Any, *, kinetic: Any = None, potential: Any = 0, force: Any = None, constraints: Any = (),
     nonholonomic: Any = (), speeds: Any = None, kinematics: Any = None, parameters: Mapping[Any, float] | None = None,
     time: sympy.Symbol | None = None, mass: Any = None, bias: Any = None, points: Iterable[Any] = (), quaternions: Any = (),
-    units: Sequence[str] | None = None, p0: Any = None, v0: Any = None, name: str = "symbolic", progress: bool = True,
-    inputs: Sequence[Any] = (),
+    units: Sequence[str] | None = None, p0: ArrayLike | None = None, v0: ArrayLike | None = None, name: str = "symbolic",
+    progress: bool = True, inputs: Sequence[Any] = (),
 ) -> SymbolicSystem:
     """System from SymPy expressions: its terms are derived, written as C, compiled and cached.
 

@@ -11,6 +11,7 @@ from functools import cache
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .. import _check, _gateway
 from .._gateway import TERMS, NativeCore, Variable
@@ -269,7 +270,7 @@ class SymbolicSystem(BaseSystem):
         vars(other).update(vars(self))
         return other
 
-    def points(self, p: Any) -> np.ndarray | None:
+    def points(self, p: ArrayLike) -> np.ndarray | None:
         """Points of the drawing at p, (n, 2) or (n, 3), joined by lines except at NaN; None without a drawing."""
         count, dimension = self._code.drawing
         if not count:

@@ -102,9 +102,9 @@ class Jet:
 
     def arctan2(self, x: Any) -> Jet:
         """The angle of the point (x, self)."""
-        x = x if isinstance(x, Jet) else Jet(x)
-        ratio = (self / x).arctan() if abs(x.value) >= abs(self.value) else -(x / self).arctan()
-        return Jet(math.atan2(self.value, x.value), ratio.gradient, ratio.first, ratio.second)
+        other: Any = x if isinstance(x, Jet) else Jet(x)
+        ratio = (self / other).arctan() if abs(other.value) >= abs(self.value) else -(other / self).arctan()
+        return Jet(math.atan2(self.value, other.value), ratio.gradient, ratio.first, ratio.second)
 
     def hypot(self, other: Any) -> Jet:
         return (self * self + other * other).sqrt()

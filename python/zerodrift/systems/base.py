@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import functools
+import operator
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any, Literal, NoReturn
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .. import _check, _gateway
 from .._gateway import Variable, known_events
@@ -40,6 +42,10 @@ class Terms:
         return f"Terms({', '.join(present)})"
 
 
+def _of_core(name: str, doc: str) -> Any:
+    return property(operator.attrgetter(f"_core.{name}"), doc=doc)
+
+
 class BaseSystem(Defaults):
     """Multibody system: sizes, names, start, and equations of motion.
 
@@ -56,15 +62,15 @@ class BaseSystem(Defaults):
 
     _has_own_energy = False     # True if the user writes the potential energy and the power, beside the forces
 
-    nq = property(lambda self: self._core.nq, doc="Number of coordinates, the entries of p.")
-    nv = property(lambda self: self._core.nv, doc="Number of velocities, the entries of v.")
-    mh = property(lambda self: self._core.mh, doc="Number of holonomic constraints.")
-    mn = property(lambda self: self._core.mn, doc="Number of nonholonomic constraints.")
-    m = property(lambda self: self._core.m, doc="Number of constraints.")
-    quaternions = property(lambda self: self._core.quaternions, doc="Indices in p of the first entries of unit quaternions.")
-    has_energy = property(lambda self: self._core.has_energy, doc="True if a potential energy is declared.")
+    nq: int = _of_core("nq", "Number of coordinates, the entries of p.")
+    nv: int = _of_core("nv", "Number of velocities, the entries of v.")
+    mh: int = _of_core("mh", "Number of holonomic constraints.")
+    mn: int = _of_core("mn", "Number of nonholonomic constraints.")
+    m: int = _of_core("m", "Number of constraints.")
+    quaternions: Sequence[int] = _of_core("quaternions", "Indices in p of the first entries of unit quaternions.")
+    has_energy: bool = _of_core("has_energy", "True if a potential energy is declared.")
 
-    def evaluate(self, p: Any = None, v: Any = None, t: float = 0.0) -> Terms:
+    def evaluate(self, p: ArrayLike | None = None, v: ArrayLike | None = None, t: float = 0.0) -> Terms:
         """The terms of the equations of motion at (t, p, v); p and v left out: the system's own start.
 
         Matrices are dense, also those of a system that declares its structure.
@@ -83,7 +89,8 @@ class BaseSystem(Defaults):
         p, v = self._state_or_start(p, v, "p", "v")
         return Terms(**self._core.evaluate(_check.number("t", t), p, v))
 
-    def product(self, term: str, x: Any, p: Any = None, v: Any = None, t: float = 0.0, *, transposed: bool = False) -> np.ndarray:
+    def product(self, term: Literal["A", "M", "C"], x: ArrayLike, p: ArrayLike | None = None, v: ArrayLike | None = None,
+                t: float = 0.0, *, transposed: bool = False) -> np.ndarray:
         """Product of "A", "M" or "C" at (t, p, v), or of its transpose, with a vector; for systems of any size.
 
         Parameters
@@ -137,10 +144,10 @@ class BaseSystem(Defaults):
         """The given state; missing parts are those of the system's start at t."""
         if p is None and self.p0 is None:
             raise WrongValue(f"{p_name} is needed: {self.name} has no start of its own", "missing-argument")
-        p = self.p0 if p is None else _check.vector(p_name, p, self.nq)
+        at: Any = self.p0 if p is None else _check.vector(p_name, p, self.nq)
         if v is None:       # what is the system's own was checked when it was made
-            return p, np.zeros(self.nv) if self.v0 is None else self.v0
-        return p, _check.vector(v_name, v, self.nv)
+            return at, np.zeros(self.nv) if self.v0 is None else self.v0
+        return at, _check.vector(v_name, v, self.nv)
 
     def with_parameters(self, changes: Mapping[str, Any] | None = None, /, **changed: Any) -> Any:
         """The same system with some parameters changed; nothing is derived or compiled again.
@@ -302,7 +309,7 @@ class Makes:
 
     name: str
 
-    def system(self, coordinates: str | None = None) -> BaseSystem:
+    def system(self, coordinates: Any = None) -> BaseSystem:
         """The system of this description, in coordinates of one kind or in those that suit it."""
         raise NotImplementedError
 

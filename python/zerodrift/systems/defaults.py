@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .. import _gateway
 from .._gateway import CoreSystem, Variable
@@ -70,7 +71,7 @@ class Defaults:
         """Units of the parameters, as far as they are known."""
         return {}
 
-    def points(self, p: Any) -> np.ndarray | None:
+    def points(self, p: ArrayLike) -> np.ndarray | None:
         """Drawing at p: points (n, 2) or (n, 3) in m, joined by lines except at NaN. None: the system has no drawing."""
         return None
 

@@ -110,7 +110,7 @@ class Watching:
     def __reduce__(self) -> tuple[Any, ...]:
         return Watching, (self._core,)      # what is known of solutions is found again
 
-    def values(self, name: str, solution: Any) -> np.ndarray | None:
+    def values(self, name: Any, solution: Any) -> np.ndarray | None:
         """A measure at all rows, as `Place.pick` shapes it; None: there is none of that name."""
         found = self.view(name)
         if found is None:
@@ -169,7 +169,7 @@ class Watching:
         changes = self.core.measure(place.number, np.array([float(t)]), *state, wanted="redundant", is_least=True)
         return bool(_are_unique(changes)[0, place.component or 0])
 
-    def unique(self, name: str, solution: Any, body: str | None = None) -> Any:
+    def unique(self, name: Any, solution: Any, body: Any = None) -> Any:
         """Components of a measure that are the same for all admissible multipliers at every sample; a bool of a scalar.
 
         Components are along the axes of a body at each sample; None: along those of the drawing.

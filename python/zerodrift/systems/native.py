@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .. import _check, _gateway
 from .._gateway import TERMS, Variable
@@ -63,8 +64,8 @@ def native(
     function: Any, coordinates: int | Sequence[str] | None = None, *, terms: Iterable[str] | None = None,
     symbol: str | None = None, version: int | None = None, velocities: int | Sequence[str] | None = None,
     constraints: int | Sequence[str] = 0, nonholonomic: int | Sequence[str] = 0, parameters: Mapping[str, float] | None = None,
-    quaternions: Sequence[int | str] = (), structure: Structure | None = None, units: Sequence[str] | None = None, p0: Any = None,
-    v0: Any = None, scratch: int = 0, name: str | None = None,
+    quaternions: Sequence[int | str] = (), structure: Structure | None = None, units: Sequence[str] | None = None,
+    p0: ArrayLike | None = None, v0: ArrayLike | None = None, scratch: int = 0, name: str | None = None,
 ) -> BaseSystem:
     """A system whose terms a compiled function evaluates, at the speed of the built-in ones.
 

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .. import _check, _gateway
 from ..errors import WrongType, WrongValue, sentence
@@ -91,11 +92,11 @@ class Structure:
         """Index of each stored entry in the dense row-major matrix "A", "M" or "C"."""
         return self._packing.places(_check.choice("term", term, _gateway.PACKED))
 
-    def expand(self, term: str, packed: Any) -> np.ndarray:
+    def expand(self, term: str, packed: ArrayLike) -> np.ndarray:
         """The dense matrix "A" (nq, nv), "M" (nv, nv) or "C" (m, nv) of what is stored of it."""
         return self._packing.expand(term, _check.vector("packed", packed, self.size(term)))
 
-    def pack(self, term: str, dense: Any) -> np.ndarray:
+    def pack(self, term: str, dense: ArrayLike) -> np.ndarray:
         """Stored entries of a dense matrix "A", "M" or "C"; ValueError if it has an entry outside all blocks and groups."""
         self.size(term)
         given = _check.real("dense must be", dense).astype(float)

@@ -88,7 +88,7 @@ class Motion:
     def _held(self, hold: Any) -> dict[str, float | None]:
         """Held measures and their values by name; None: the value at the start."""
         if isinstance(hold, Mapping):
-            held = targets(hold, "hold")
+            held: dict[str, Any] = targets(hold, "hold")
         else:
             each = (hold,) if isinstance(hold, str) or not isinstance(hold, Iterable) else hold
             held = {name_of(one, "hold"): None for one in each}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,8 +17,12 @@ from .curve import Knot, Segment
 from .motion import Motion
 from .trace_result import DeadPoint, Reach, Trace
 
+if TYPE_CHECKING:
+    from .._types import ArrayLike, MeasureLike, Measures, SystemLike, Values
 
-def trace(system: Any, measure: Any, values: Any = None, *, hold: Any = (), through: bool = False, count: int = 361) -> Trace:
+
+def trace(system: SystemLike, measure: MeasureLike, values: ArrayLike | None = None, *, hold: Values | Measures = (),
+          through: bool = False, count: int = 361) -> Trace:
     """The positions of a mechanism at given values of a measure, such as the angles of its crank; no forces, no time.
 
     All positions lie on the branch on which the mechanism starts, as drawn or as `start` says: it is followed in small steps.
@@ -85,7 +89,7 @@ def trace(system: Any, measure: Any, values: Any = None, *, hold: Any = (), thro
     return _traced(motion, values, x, slopes, dead)
 
 
-def reach(system: Any, measure: Any, *, hold: Any = ()) -> Reach:
+def reach(system: SystemLike, measure: MeasureLike, *, hold: Values | Measures = ()) -> Reach:
     """Range of a measure on the assembly branch of the start: bounded by dead points, or a full turn.
 
     Parameters

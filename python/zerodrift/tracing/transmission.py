@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from .. import _check
 from ..errors import WrongType
 from ..mechanisms.elements.joints import Joint
@@ -50,8 +52,8 @@ def transmission_angle(m: Mechanism, joint: Joint | str) -> Measure:
     """
     _check.instance("m", m, Mechanism, "a Mechanism")
     m._in_the_plane("transmission_angle")
-    joint = m[joint] if isinstance(joint, str) else joint
-    if not isinstance(joint, Joint) or m._elements.get(joint.name) is not joint:
-        raise WrongType(f"joint must be a joint of {m.name!r}, or its name, not {_check.shown(joint)}")
-    transmission.lines(joint, transmission.joints_by_body(m._elements))
-    return joint.transmission_angle
+    found: Any = m[joint] if isinstance(joint, str) else joint
+    if not isinstance(found, Joint) or m._elements.get(found.name) != found:
+        raise WrongType(f"joint must be a joint of {m.name!r}, or its name, not {_check.shown(found)}")
+    transmission.lines(found, transmission.joints_by_body(m._elements))
+    return Measure(f"{found.name}.transmission_angle")

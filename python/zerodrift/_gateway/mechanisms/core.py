@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import copy
 import functools
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
+
+import numpy as np
 
 from ..._core import ffi, lib
 from ...errors import WrongValue
@@ -45,9 +47,9 @@ class MechanismCore(CoreSystem):
     velocities: int                         # largest number of velocities of a body
     made_by: Any                            # function of the core that creates the mechanism
     motions: Any                            # as each dimension has them
-    poses: Any
-    angles: Any
-    state: Any
+    poses: Callable[..., tuple[np.ndarray, Any]]
+    angles: Callable[[np.ndarray], np.ndarray]
+    state: Callable[..., tuple[np.ndarray, np.ndarray]]
 
     def __init__(self, tables: Any, law: Law | None = None, *, laws_know_time: bool = True) -> None:
         self.tables, self._law, self._laws_know_time = tables, law, laws_know_time

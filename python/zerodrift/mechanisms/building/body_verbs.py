@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,14 +14,17 @@ from ..elements.immutable import Fixed
 from ..elements.space_bodies import SpaceBody, SpaceLink, SpaceParticle, tensor
 from .registry import Elements
 
+if TYPE_CHECKING:
+    from ..._types import ArrayLike
+
 PARALLEL = 1e-6     # sine of the angle below which directions are parallel
 
 
 class BodyVerbs(Elements):
     """Bodies, links and particles."""
 
-    def body(self, name: str, mass: float, inertia: Any = 0.0, *, at: Any = None, angle: float = 0.0, rotation: Any = None,
-             com: Any = None) -> Body:
+    def body(self, name: str, mass: float, inertia: ArrayLike = 0.0, *, at: ArrayLike | Point | None = None, angle: float = 0.0,
+             rotation: ArrayLike | None = None, com: ArrayLike | None = None) -> SpaceBody:
         """Add a rigid body.
 
         Parameters
@@ -73,8 +76,8 @@ class BodyVerbs(Elements):
         pose = Pose(at, _check.number(f"angle of {name!r}", angle))
         return self._add(Body(name, pose, mass, _amount("inertia", name, inertia), com))
 
-    def link(self, name: str, start: Any, end: Any, mass: float = 0.0, *, length: float | None = None,
-             inertia: Any = None, thickness: float | None = None, normal: Any = None) -> Link:
+    def link(self, name: str, start: ArrayLike | Point, end: ArrayLike | Point, mass: float = 0.0, *, length: float | None = None,
+             inertia: ArrayLike | None = None, thickness: float | None = None, normal: ArrayLike | None = None) -> SpaceLink:
         """Add a link, a uniform slender rod between two points of the drawing; in space a round bar.
 
         Parameters
@@ -149,7 +152,7 @@ class BodyVerbs(Elements):
         length = float(np.linalg.norm(end - start)) if length is None else length
         return SpaceLink(name, start, end, mass, length, rotation, thickness, inertia)
 
-    def particle(self, name: str, mass: float, at: Any) -> Particle:
+    def particle(self, name: str, mass: float, at: ArrayLike | Point) -> Particle:
         """Add a mass in a point.
 
         Parameters
@@ -186,7 +189,7 @@ class BodyVerbs(Elements):
             return self._add(made(name, attachment.drawn, mass, attachment))
         return self._add(made(name, _check.vector(f"at of {name!r}", at, self.dimension), mass))
 
-    def point(self, name: str, body: Body | str, local: Any = None, *, at: Any = None) -> Point:
+    def point(self, name: str, body: Body | str, local: ArrayLike | None = None, *, at: ArrayLike | Point | None = None) -> Point:
         """Add a named point to a body, as ``body.point(local, at=at, name=name)`` does.
 
         Parameters

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ... import _check
 from ...errors import WrongType, WrongValue
@@ -13,6 +13,9 @@ from ..elements.user_functions import Law
 from ..equations.measure_names import checked_reading
 from .periodic_spline import PeriodicSpline
 from .registry import Elements
+
+if TYPE_CHECKING:
+    from ..._types import ArrayLike, Bindings, LawLike
 
 
 class CouplingVerbs(Elements):
@@ -103,7 +106,7 @@ class CouplingVerbs(Elements):
         bases = [base.partition(".")[2] for each in of for base in checked_reading(each, each, None, self._elements).quantities]
         return self._add(Coupling(name, kind, of, "torque" if all("ang" in base for base in bases) else "force", **how))
 
-    def coupler(self, name: str, value: Any, *, of: Mapping[str, Any] | None = None) -> Coupling:
+    def coupler(self, name: str, value: LawLike, *, of: Bindings | None = None) -> Coupling:
         """Couple measures of positions by any function of them that has to be zero; the same as `constraint`, said of joints.
 
         Parameters
@@ -141,7 +144,8 @@ class CouplingVerbs(Elements):
             value, of = _Sum(tuple(terms.values())), {f"x{i}": measure for i, measure in enumerate(terms)}
         return self._by_law(name, "coupler", value, of)
 
-    def cam(self, name: str, cam: Joint | str, follower: Joint | Measure | str, *, profile: Any) -> Coupling:
+    def cam(self, name: str, cam: Joint | str, follower: Joint | Measure | str, *,
+            profile: LawLike | tuple[ArrayLike, ArrayLike]) -> Coupling:
         """Couple a follower to the angle of a cam: ``follower = profile(angle)``.
 
         Parameters
@@ -194,9 +198,9 @@ class CouplingVerbs(Elements):
         elif not callable(profile):
             raise WrongType(f"profile of {name!r} must be a callable, a SymPy expression or (angles, values), "
                             f"not {_check.shown(profile)}")
-        return self._by_law(name, "cam", _Follows(profile), {"angle": cam.angle, "follower": follower})
+        return self._by_law(name, "cam", _Follows(profile), {"angle": Measure(f"{cam.name}.angle"), "follower": follower})
 
-    def constraint(self, name: str, value: Any, *, of: Mapping[str, Any] | None = None) -> Coupling:
+    def constraint(self, name: str, value: LawLike, *, of: Bindings | None = None) -> Coupling:
         """Add a constraint of one's own.
 
         Parameters
@@ -226,7 +230,7 @@ class CouplingVerbs(Elements):
         """
         return self._by_law(self._new_name(name, "constraint"), "constraint", value, of)
 
-    def nonholonomic(self, name: str, value: Any, *, of: Mapping[str, Any] | None = None) -> Coupling:
+    def nonholonomic(self, name: str, value: LawLike, *, of: Bindings | None = None) -> Coupling:
         """Add a nonholonomic constraint of one's own.
 
         Parameters

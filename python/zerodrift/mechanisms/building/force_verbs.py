@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,6 +12,9 @@ from ..elements.bodies import Body, Particle, Point
 from ..elements.forces import Actuator, Force, Motor, Torque
 from ..elements.joints import Joint
 from .registry import Elements
+
+if TYPE_CHECKING:
+    from ..._types import ArrayLike, Bindings, LawLike
 
 VECTORS = {2: "(0.0, -10.0)", 3: "(0.0, 0.0, -10.0)"}      # examples in messages
 DRIVES = {"angle": ("angle",), "displacement": ("displacement",), "speed": ("angle", "displacement"), "torque": ("angle",),
@@ -26,8 +28,9 @@ class ForceVerbs(Elements):
     ``of=`` binds to names.
     """
 
-    def motor(self, name: str, joint: Joint | str, *, angle: Any = None, displacement: Any = None, speed: Any = None,
-              torque: Any = None, force: Any = None, of: Mapping[str, Any] | None = None) -> Motor:
+    def motor(self, name: str, joint: Joint | str, *, angle: LawLike | None = None, displacement: LawLike | None = None,
+              speed: LawLike | None = None, torque: LawLike | None = None, force: LawLike | None = None,
+              of: Bindings | None = None) -> Motor:
         """Drive a joint.
 
         Parameters
@@ -91,8 +94,8 @@ class ForceVerbs(Elements):
                              "prescribed-twice")
         return self._add(motor)
 
-    def actuator(self, name: str, first: Point | Particle | str, second: Point | Particle | str, *, length: Any = None,
-                 force: Any = None, of: Mapping[str, Any] | None = None) -> Actuator:
+    def actuator(self, name: str, first: Point | Particle | str, second: Point | Particle | str, *, length: LawLike | None = None,
+                 force: LawLike | None = None, of: Bindings | None = None) -> Actuator:
         """Drive two points apart or together, as a hydraulic cylinder does.
 
         Parameters
@@ -139,8 +142,8 @@ class ForceVerbs(Elements):
             _check.number(law.what, law.constant, above=0)
         return self._add(Actuator(name, first, second, drives, law))
 
-    def force(self, name: str, point: Point | Body | str, along: Any = None, *, value: Any = None,
-              of: Mapping[str, Any] | None = None, frame: Body | str | None = None) -> Force:
+    def force(self, name: str, point: Point | Body | str, along: ArrayLike | None = None, *,
+              value: LawLike | ArrayLike | None = None, of: Bindings | None = None, frame: Body | str | None = None) -> Force:
         """Let a force act at a point.
 
         Parameters
@@ -208,8 +211,8 @@ class ForceVerbs(Elements):
                             "as value= is its magnitude", "missing-argument")
         return self._direction(f"along of {name!r}", along), value
 
-    def torque(self, name: str, body: Body | str, *, value: Any, of: Mapping[str, Any] | None = None,
-               against: Body | str | None = None, axis: Any = None, frame: Body | str | None = None) -> Torque:
+    def torque(self, name: str, body: Body | str, *, value: LawLike, of: Bindings | None = None,
+               against: Body | str | None = None, axis: ArrayLike | None = None, frame: Body | str | None = None) -> Torque:
         """Let a moment act on a body.
 
         Parameters

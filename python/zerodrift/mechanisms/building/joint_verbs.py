@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ... import _check
 from ...errors import WrongValue
 from ..elements.bodies import Body, Point
-from ..elements.joints import Rolling
+from ..elements.joints import Joint, Rolling
 from .space_joint_verbs import SpaceJointVerbs
 from .table_verbs import TableVerbs
+
+if TYPE_CHECKING:
+    from ..._types import ArrayLike
 
 Side = Body | Point | str
 
@@ -24,8 +27,8 @@ class JointVerbs(TableVerbs, SpaceJointVerbs):
 
     gravity: Any
 
-    def rolling(self, name: str, first: Body | str, second: Side, *, radius: float | None = None, at: Any = None,
-                normal: Any = None, axle: Any = None, semiaxes: Any = None) -> Any:
+    def rolling(self, name: str, first: Body | str, second: Side, *, radius: float | None = None, at: ArrayLike | None = None,
+                normal: ArrayLike | None = None, axle: ArrayLike | None = None, semiaxes: ArrayLike | None = None) -> Joint:
         """Let a wheel roll on a line without slipping; in space a disc, a sphere or an ellipsoid on a plane.
 
         Parameters

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,6 +15,9 @@ from ..elements.measures import name_of
 from ..equations.measure_names import checked_reading
 from .registry import Elements
 
+if TYPE_CHECKING:
+    from ..._types import Values
+
 
 class StartVerbs(Elements):
     """Method of `Mechanism` for initial values."""
@@ -25,8 +28,7 @@ class StartVerbs(Elements):
         self._wished: dict[str, Any] = {}
         self._is_balanced = False
 
-    def start(self, held: Mapping[Any, Any] | None = None, *, wish: Mapping[Any, Any] | None = None,
-              equilibrium: bool | None = None) -> None:
+    def start(self, held: Values | None = None, *, wish: Values | None = None, equilibrium: bool | None = None) -> None:
         """Set initial positions and velocities; all else starts as drawn and at rest, unless a loop must move with it.
 
         Joint coordinates that neither values given here nor drives force stay as in the drawing with its joints closed, and

@@ -11,7 +11,7 @@ import numpy as np
 from ... import _check
 from ..._gateway.mechanisms.element_tables import ElementKind
 from ...errors import WrongType, WrongValue
-from ..elements.bodies import Point
+from ..elements.bodies import Point, axes_of
 from ..elements.frames import perpendicular
 from ..elements.table_forces import ROTATIONS, TableForce, has, is_between_points, lengths, parameters
 from .registry import Elements
@@ -29,7 +29,7 @@ WORDS = {
     "of": ("dict of str to measure", "Measures by the names of the callable's arguments.")}
 UNITS = {"stiffness": ("N/m", "N m/rad"), "damping": ("N s/m", "N m s/rad"), "torsion": ("", "N m/rad"),
          "torsion_damping": ("", "N m s/rad"), "value": ("N", "N m")}      # along marker quantities in m and in rad
-KINDS = {"name": "str", "first": "Side", "second": "Side"}
+KINDS = {"name": "str", "first": "Side", "second": "Side", "joint": "Joint | str", "value": "LawLike", "of": "Bindings | None"}
 NEEDED = inspect.Parameter.empty
 FLAT = 1e-6             # sine of the angle below which directions are parallel
 
@@ -40,8 +40,9 @@ def force_verb(force: type[TableForce]) -> Callable[..., Any]:
     signature = inspect.Signature(
         [inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD, annotation=KINDS.get(name, NEEDED))
          for name in ("self", "name", *given)]
-        + [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=initial, annotation="Any")
-           for name, initial in _words_of_all(force).items()], return_annotation="Any")
+        + [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=initial,
+                             annotation=KINDS.get(name, "ArrayLike" if initial is not None else "ArrayLike | None"))
+           for name, initial in _words_of_all(force).items()], return_annotation=force.__name__)
 
     def make(m: Elements, *given: Any, **named: Any) -> TableForce:
         try:
@@ -144,7 +145,7 @@ def _frames(name: str, first: Point, second: Point, axis: Any, normal: Any) -> t
     """Three directions in the frames of both bodies; by default the axes of the first body."""
     if axis is None and normal is not None:
         raise WrongType(f"normal of {name!r} goes with axis=, to which it is made perpendicular", "missing-argument")
-    frame = first.body.pose.rotation.T
+    frame = axes_of(first.body).T
     if axis is not None:
         if normal is not None and np.linalg.norm(np.cross(axis, normal)) < FLAT:
             raise WrongValue(f"normal of {name!r} must not be parallel to its axis", "geometry")

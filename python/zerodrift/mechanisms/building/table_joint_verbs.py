@@ -18,8 +18,8 @@ from .space_joint_verbs import FLAT, checked_cut
 from .table_joint_documentation import documentation
 
 ORDER = ("axis", "along", "axes", "normal", "pitch", "at", "length", "damping", "cut")
-KINDS = {"name": "str", "first": "Side", "second": "Side", "point": "Side", "axes": "tuple[Any, Any]", "pitch": "float",
-         "damping": "float", "cut": "bool"}
+KINDS = {"name": "str", "first": "Side", "second": "Side", "point": "Side", "axes": "tuple[ArrayLike, ArrayLike]",
+         "pitch": "float", "damping": "float", "cut": "bool"}
 INITIAL = {"at": None, "damping": 0.0, "cut": False}
 RIGHT_ANGLE = 1e-9      # cosine of the angle between two axes, at most
 
@@ -103,13 +103,13 @@ def _signature(plane: type[Joint] | None, space: type[SpaceJoint] | None) -> ins
     words = [word for word in ORDER if any(word in each for each in in_each)]
     given += [inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, annotation=_annotation(word, initial),
                                 default=initial.get(word, inspect.Parameter.empty)) for word in words]
-    return inspect.Signature(given, return_annotation="Any" if plane else "SpaceJoint")
+    return inspect.Signature(given, return_annotation=getattr(plane or space, "__name__", ""))
 
 
 def _annotation(word: str, initial: dict[str, Any]) -> str:
     if word == "length":
         return "float | None" if word in initial else "float"
-    return KINDS.get(word, "Any")
+    return KINDS.get(word, "ArrayLike | None" if word in initial else "ArrayLike")
 
 
 def _check_dimension(m: Elements, plane: type[Joint] | None, space: type[SpaceJoint] | None) -> None:

@@ -1,9 +1,10 @@
 """Methods of `Mechanism` made from the core's tables; written by tests/mechanisms/stub_of_verbs.py."""
 
-from typing import Any
-
+from ..._types import ArrayLike
+from ..elements import forces
 from ..elements.bodies import Body, Point
 from ..elements.joints import Joint
+from ..elements.measures import Measure, VectorMeasure3
 from ..elements.space_joints import SpaceJoint
 from ..elements.table_forces import TableForce
 from .registry import Elements
@@ -12,9 +13,100 @@ PLANE: dict[str, type[Joint]]
 FORCES: dict[str, type[TableForce]]
 Side = Body | Point | str
 
+class Revolute(Joint):
+    angle: Measure
+    speed: Measure
+    acceleration: Measure
+    torque: VectorMeasure3
+    position: VectorMeasure3
+    velocity: VectorMeasure3
+    transmission_angle: Measure
+
+class Prismatic(Joint):
+    displacement: Measure
+    speed: Measure
+    acceleration: Measure
+    torque: VectorMeasure3
+    first_torque: VectorMeasure3
+
+class Weld(Joint):
+    torque: VectorMeasure3
+    position: VectorMeasure3
+    velocity: VectorMeasure3
+
+class Rod(Joint):
+    tension: Measure
+
+class Slot(Joint):
+    displacement: Measure
+    speed: Measure
+    acceleration: Measure
+
+class KnifeEdge(Joint):
+    ...
+
+class SpaceCylindrical(SpaceJoint):
+    angle: Measure
+    displacement: Measure
+    angle_speed: Measure
+    angle_acceleration: Measure
+    displacement_speed: Measure
+    displacement_acceleration: Measure
+    torque: VectorMeasure3
+    first_torque: VectorMeasure3
+
+class SpacePlanar(SpaceJoint):
+    angle: Measure
+    speed: Measure
+    acceleration: Measure
+    torque: VectorMeasure3
+    first_torque: VectorMeasure3
+
+class SpaceScrew(SpaceJoint):
+    angle: Measure
+    displacement: Measure
+    angle_speed: Measure
+    angle_acceleration: Measure
+    displacement_speed: Measure
+    displacement_acceleration: Measure
+    torque: VectorMeasure3
+    first_torque: VectorMeasure3
+
+class SpaceSpherical(SpaceJoint):
+    position: VectorMeasure3
+    velocity: VectorMeasure3
+
+class SpaceUniversal(SpaceJoint):
+    angle1: Measure
+    angle2: Measure
+    angle1_speed: Measure
+    angle1_acceleration: Measure
+    angle2_speed: Measure
+    angle2_acceleration: Measure
+    torque: VectorMeasure3
+    position: VectorMeasure3
+    velocity: VectorMeasure3
+
+class Spring(forces.Spring):
+    stiffness: float
+    free_length: float
+    damping: float
+    force: Measure
+    length: Measure
+
+class TorsionSpring(forces.TorsionSpring):
+    stiffness: float
+    angle: float
+    damping: float
+    torque: Measure
+
+class Bushing(forces.Bushing):
+    force: VectorMeasure3
+    torque: VectorMeasure3
+
 class TableVerbs(Elements):
-    def revolute(self, name: str, first: Side, second: Side, *, axis: Any = None, at: Any = None, damping: float = 0.0,
-                 cut: bool = False) -> Any:
+    def revolute(self, name: str, first: Side, second: Side, *, axis: ArrayLike | None = None, at: ArrayLike | None = None,
+                 damping: float = 0.0, cut: bool = False) -> Revolute:
         """Turns one body about a point of the other; a particle is held at that point.
 
         Parameters
@@ -55,8 +147,8 @@ class TableVerbs(Elements):
         VectorMeasure('joint.force')
         """
 
-    def prismatic(self, name: str, first: Side, second: Side, *, axis: Any, at: Any = None, damping: float = 0.0,
-                  cut: bool = False) -> Any:
+    def prismatic(self, name: str, first: Side, second: Side, *, axis: ArrayLike, at: ArrayLike | None = None,
+                  damping: float = 0.0, cut: bool = False) -> Prismatic:
         """Slides one body along an axis that turns with the other.
 
         Parameters
@@ -97,7 +189,7 @@ class TableVerbs(Elements):
         VectorMeasure('joint.force')
         """
 
-    def weld(self, name: str, first: Side, second: Side, *, at: Any = None, cut: bool = False) -> Any:
+    def weld(self, name: str, first: Side, second: Side, *, at: ArrayLike | None = None, cut: bool = False) -> Weld:
         """Fixes one body to the other.
 
         Parameters
@@ -133,7 +225,7 @@ class TableVerbs(Elements):
         VectorMeasure('joint.force')
         """
 
-    def rod(self, name: str, first: Side, second: Side, *, length: float | None = None) -> Any:
+    def rod(self, name: str, first: Side, second: Side, *, length: float | None = None) -> Rod:
         """Keeps two points at a distance, as a massless rod with a hinge at each end.
 
         Parameters
@@ -166,7 +258,8 @@ class TableVerbs(Elements):
         VectorMeasure('joint.force')
         """
 
-    def slot(self, name: str, first: Side, second: Side, *, axis: Any, at: Any = None, cut: bool = False) -> Any:
+    def slot(self, name: str, first: Side, second: Side, *, axis: ArrayLike, at: ArrayLike | None = None,
+             cut: bool = False) -> Slot:
         """Guides a point along a line that turns with the first body.
 
         Parameters
@@ -205,7 +298,7 @@ class TableVerbs(Elements):
         VectorMeasure('joint.force')
         """
 
-    def knife_edge(self, name: str, point: Side, *, along: Any, normal: Any = None) -> Any:
+    def knife_edge(self, name: str, point: Side, *, along: ArrayLike, normal: ArrayLike | None = None) -> KnifeEdge:
         """Lets a point of a body glide along a direction that turns with the body, and not across.
 
         Parameters
@@ -243,7 +336,8 @@ class TableVerbs(Elements):
         VectorMeasure('joint.force')
         """
 
-    def cylindrical(self, name: str, first: Side, second: Side, *, axis: Any, at: Any = None, cut: bool = False) -> SpaceJoint:
+    def cylindrical(self, name: str, first: Side, second: Side, *, axis: ArrayLike, at: ArrayLike | None = None,
+                    cut: bool = False) -> SpaceCylindrical:
         """Turns one body about an axis of the other, and slides it along.
 
         Parameters
@@ -282,7 +376,8 @@ class TableVerbs(Elements):
         VectorMeasure3('joint.force')
         """
 
-    def planar(self, name: str, first: Side, second: Side, *, normal: Any, at: Any = None, cut: bool = False) -> SpaceJoint:
+    def planar(self, name: str, first: Side, second: Side, *, normal: ArrayLike, at: ArrayLike | None = None,
+               cut: bool = False) -> SpacePlanar:
         """Slides one body on a plane of the other, and turns it about the plane's normal.
 
         Parameters
@@ -321,8 +416,8 @@ class TableVerbs(Elements):
         VectorMeasure3('joint.force')
         """
 
-    def screw(self, name: str, first: Side, second: Side, *, axis: Any, pitch: float, at: Any = None,
-              cut: bool = False) -> SpaceJoint:
+    def screw(self, name: str, first: Side, second: Side, *, axis: ArrayLike, pitch: float, at: ArrayLike | None = None,
+              cut: bool = False) -> SpaceScrew:
         """Turns one body about an axis of the other, along which it advances.
 
         Parameters
@@ -363,7 +458,8 @@ class TableVerbs(Elements):
         VectorMeasure3('joint.force')
         """
 
-    def spherical(self, name: str, first: Side, second: Side, *, at: Any = None, cut: bool = False) -> SpaceJoint:
+    def spherical(self, name: str, first: Side, second: Side, *, at: ArrayLike | None = None,
+                  cut: bool = False) -> SpaceSpherical:
         """Turns one body about a point of the other; a particle is held at that point.
 
         Parameters
@@ -399,8 +495,8 @@ class TableVerbs(Elements):
         VectorMeasure3('joint.force')
         """
 
-    def universal(self, name: str, first: Side, second: Side, *, axes: tuple[Any, Any], at: Any = None,
-                  cut: bool = False) -> SpaceJoint:
+    def universal(self, name: str, first: Side, second: Side, *, axes: tuple[ArrayLike, ArrayLike], at: ArrayLike | None = None,
+                  cut: bool = False) -> SpaceUniversal:
         """Joins two bodies by a cross, with an axis on each that are perpendicular.
 
         Parameters
@@ -439,7 +535,8 @@ class TableVerbs(Elements):
         VectorMeasure3('joint.force')
         """
 
-    def spring(self, name: str, first: Side, second: Side, *, stiffness: Any, length: Any = None, damping: Any = 0.0) -> Any:
+    def spring(self, name: str, first: Side, second: Side, *, stiffness: ArrayLike, length: ArrayLike | None = None,
+               damping: ArrayLike = 0.0) -> Spring:
         """Spring with a damper between two points.
 
         Parameters
@@ -470,7 +567,8 @@ class TableVerbs(Elements):
         <spring element: ground - body>
         """
 
-    def torsion_spring(self, name: str, joint: Any, *, stiffness: Any, angle: Any = 0.0, damping: Any = 0.0) -> Any:
+    def torsion_spring(self, name: str, joint: Joint | str, *, stiffness: ArrayLike, angle: ArrayLike = 0.0,
+                       damping: ArrayLike = 0.0) -> TorsionSpring:
         """Spring with a damper about the axis of a joint.
 
         Parameters
@@ -502,8 +600,9 @@ class TableVerbs(Elements):
         <torsion spring element at hinge>
         """
 
-    def bushing(self, name: str, first: Side, second: Side, *, at: Any = None, stiffness: Any = 0.0, damping: Any = 0.0,
-                torsion: Any = 0.0, torsion_damping: Any = 0.0, axis: Any = None, normal: Any = None) -> Any:
+    def bushing(self, name: str, first: Side, second: Side, *, at: ArrayLike | None = None, stiffness: ArrayLike = 0.0,
+                damping: ArrayLike = 0.0, torsion: ArrayLike = 0.0, torsion_damping: ArrayLike = 0.0,
+                axis: ArrayLike | None = None, normal: ArrayLike | None = None) -> Bushing:
         """Joins two bodies softly, by springs and dampers along and about the axes of the first.
 
         It is slack as drawn. In space the angles about its directions are the components of the rotation vector: the unit axis

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ... import _check
 from ...errors import WrongAttribute, WrongType
 from . import columns
-from .frames import Pose, Pose3
+from .frames import Pose
 from .immutable import Fixed
 from .measures import scalar, vector
 from .numbers import AS_GIVEN, Numbers
+
+if TYPE_CHECKING:
+    from ..._types import ArrayLike
 
 
 class MassProperties(NamedTuple):
@@ -95,9 +98,9 @@ class Body(Fixed):
     what = "body"
     turns = True        # False for a particle, which has no orientation
 
-    pose: Any           # a Pose, in space a Pose3
+    pose: Pose           # in space a Pose3
 
-    def __init__(self, name: str, pose: Pose | Pose3, mass: float, inertia: Any, com: np.ndarray) -> None:
+    def __init__(self, name: str, pose: Any, mass: float, inertia: Any, com: np.ndarray) -> None:
         self.name, self.pose, self.mass, self.inertia, self._com = name, pose, mass, inertia, com
         self._register: Callable[[Point], Point] = _as_it_is       # replaced by the mechanism's own
 
@@ -118,7 +121,7 @@ class Body(Fixed):
         """Centre of mass as a point, measured as ``body.center.position``; particles attached to the body do not move it."""
         return _Center(self, self._com, f"{self.name}.center")
 
-    def point(self, local: Any = None, *, at: Any = None, name: str | None = None) -> Point:
+    def point(self, local: ArrayLike | None = None, *, at: ArrayLike | Point | None = None, name: str | None = None) -> Point:
         """A point of the body.
 
         Parameters
@@ -262,7 +265,7 @@ class Particle(Body):
         return {"mass": self.properties(now).mass}
 
     @property
-    def angle(self) -> Any:
+    def angle(self) -> Any:     # type: ignore[override]
         """Not defined: a particle has no orientation."""
         raise WrongAttribute(f"particle {self.name!r} has no orientation: no angle, no angular velocity")
 
@@ -281,6 +284,11 @@ def place(argument: str, value: Any, dimension: int = 2) -> np.ndarray:
 
 def _as_it_is(point: Point) -> Point:
     return point
+
+
+def axes_of(body: Any) -> np.ndarray:
+    """Axes of a body in space in the drawing, the columns of (3, 3)."""
+    return body.pose.rotation
 
 
 def kind_of(element: Any) -> str:

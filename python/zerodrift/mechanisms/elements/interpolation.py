@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import inspect
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,10 +13,13 @@ from ... import _check
 from ...errors import WrongType, WrongValue
 from ...systems import autodiff
 
+if TYPE_CHECKING:
+    from ..._types import ArrayLike
+
 BEYOND = 1e-9       # of the table's length: rounding beyond its ends that is accepted
 
 
-def table(x: Any, y: Any = None, *, argument: str = "t") -> Table:
+def table(x: ArrayLike, y: ArrayLike | None = None, *, argument: str = "t") -> Table:
     """A smooth function through measured data, for prescribed motions and for forces.
 
     The cubic spline with continuous first and second derivatives, and a continuous third one at the second and the last but one

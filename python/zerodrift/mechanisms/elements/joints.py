@@ -6,7 +6,7 @@ entry in the table.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -60,9 +60,6 @@ class Joint(Fixed):
                  damping: float = 0.0, cut: bool = False) -> None:
         self.name, self.first, self.second, self.axis = name, first, second, axis       # the axis (2,) in the first body's frame
         self.length, self.damping, self.cut = length, damping, cut
-
-    if TYPE_CHECKING:       # the measures that the entry defines
-        def __getattr__(self, name: str) -> Any: ...
 
     force = vector("force", "Force of the first body on the second through the joint, in the drawing's axes, in N: its "
                    "reaction, and what acts in it: motors, damping, torsion springs. What acts between points or joints, such as "

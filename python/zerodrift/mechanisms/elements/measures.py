@@ -40,13 +40,17 @@ class Measure:
         return hash(self.name)
 
 
+def _component(axis: str) -> Measure:
+    return property(lambda self: Measure(f"{self.name}.{axis}"),        # type: ignore[return-value]
+                    doc=f"The component along the drawing's {axis} axis.")
+
+
 class VectorMeasure(Measure):
     """Vector measure, with components that are measures, too: `x`, `y`."""
 
     __slots__ = ()
 
-    x = property(lambda self: Measure(f"{self.name}.x"), doc="The component along the drawing's x axis.")
-    y = property(lambda self: Measure(f"{self.name}.y"), doc="The component along the drawing's y axis.")
+    x, y = (_component(axis) for axis in "xy")
 
 
 class VectorMeasure3(VectorMeasure):
@@ -54,7 +58,7 @@ class VectorMeasure3(VectorMeasure):
 
     __slots__ = ()
 
-    z = property(lambda self: Measure(f"{self.name}.z"), doc="The component along the drawing's z axis.")
+    z = _component("z")
 
 
 def name_of(measure: Any, argument: str) -> str:
@@ -66,14 +70,14 @@ def name_of(measure: Any, argument: str) -> str:
     raise WrongType(f"{argument} must be a measure, such as crank.angle, or its name, not {_check.shown(measure)}")
 
 
-def scalar(quantity: str, doc: str) -> property:
+def scalar(quantity: str, doc: str) -> Measure:
     """Property of an element for its scalar measure of that name."""
-    return property(lambda self: Measure(f"{self.measured_name}.{quantity}"), doc=doc)
+    return property(lambda self: Measure(f"{self.measured_name}.{quantity}"), doc=doc)     # type: ignore[return-value]
 
 
-def vector(quantity: str, doc: str) -> property:
+def vector(quantity: str, doc: str) -> VectorMeasure3:
     """Property of an element for its vector measure of that name."""
     def measure(self: Any) -> VectorMeasure:
         return (VectorMeasure3 if getattr(self, "dimension", 2) == 3 else VectorMeasure)(f"{self.measured_name}.{quantity}")
 
-    return property(measure, doc=doc)
+    return property(measure, doc=doc)       # type: ignore[return-value]

@@ -98,7 +98,7 @@ class SpaceBody(Body):
         return Measure(f"{self.measured_name}.quaternion")
 
     @property
-    def angle(self) -> Any:
+    def angle(self) -> Any:     # type: ignore[override]
         """Not defined: a body in space has a rotation."""
         raise WrongAttribute(f"{self.name!r} is a body in space, which has a rotation and no angle")
 

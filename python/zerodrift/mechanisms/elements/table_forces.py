@@ -62,11 +62,13 @@ def parameters(entry: ElementKind) -> dict[str, tuple[str, ...]]:
     return {"stiffness": found.pop("stiffness"), **({slack: (slack,)} if slack else {}), **found}
 
 
-def _measures(entry: ElementKind) -> dict[str, property]:
+def _measures(entry: ElementKind) -> dict[str, Any]:
     """Measures of an element."""
     if entry.measure is None:
-        found = {"force": vector("force", "Force of the first body on the second, at the second's point, in the drawing's axes, "
-                                 "in N."), "torque": MOMENT}
+        found: dict[str, Any] = {
+            "force": vector("force", "Force of the first body on the second, at the second's point, in the drawing's axes, "
+                            "in N."),
+            "torque": MOMENT}
     else:
         where = ("what acts on the joint's second body" if entry.at_joint else "positive where it pulls, its damping included"
                  if entry.sign < 0 else "positive where it drives the marker quantity up")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ... import _check
@@ -72,7 +74,7 @@ def coin(*, radius: float = 0.012, mass: float = 7.5e-3, incline: float = 0.3, d
     return m
 
 
-def _against(damping: float) -> object:
+def _against(damping: float) -> Any:
     from .._swing import symbol
 
     return -damping * symbol("w")

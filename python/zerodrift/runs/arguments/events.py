@@ -145,7 +145,7 @@ class Watched(NamedTuple):
     """Event function, checked; `value(t, p, v, x)` is a finite number."""
 
     name: str
-    function: Any                       # float of (t, p, v, x), x as `known` has it; None if the core evaluates the event
+    function: Callable[..., Any] | None     # float of (t, p, v, x), x as `known` has it; None if the core evaluates the event
     direction: int
     terminal: int
     known: _gateway.KnownEvent | None   # what the core reads, or None
@@ -153,6 +153,7 @@ class Watched(NamedTuple):
     def value(self, t: float, p: np.ndarray, v: np.ndarray, x: Sequence[float]) -> float:
         """Value of the event function, checked to be a finite number."""
         try:
+            assert self.function
             value = self.function(t, p, v, x)
         except BaseException as error:
             _check.tell(error, f"in {self.name}, called at t = {t:g}")

@@ -258,7 +258,7 @@ def corrections() -> dict[Correction, Row]:
     return CardTable(TABLES["corrections"])
 
 
-def name_of(table: str, value: Any) -> str:
+def name_of(table: str, value: Any) -> Any:
     """Name of a method that an argument selects by its name or by its settings."""
     if isinstance(value, RowSettings) and value.table == table:
         return value.card.name

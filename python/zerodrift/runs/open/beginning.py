@@ -102,9 +102,9 @@ def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: A
     of = declared.of.system if declared else system
     plan = settings.plan(of, span, arguments)
     plan.core_settings.is_open = is_open
-    takes = plan.steps and not is_open and _gateway.takes_closed_form(core_of(of), plan.core_settings)
+    takes = not is_open and _gateway.takes_closed_form(core_of(of), plan.core_settings)
     with contextlib.suppress(CompilationFailed):    # tables serve, as code was not asked for
-        if takes and (compiled := system._compiled_for(plan.steps)) is not None:
+        if takes and (steps := plan.steps) and (compiled := system._compiled_for(steps)) is not None:
             return prepared(compiled, span, p0, v0, events, outputs, save_to, arguments, inputs=inputs, speeds=speeds,
                             stacklevel=stacklevel + 1)
     core = closed_form_core_of(of, plan.settings["vector"], plan.core_settings)

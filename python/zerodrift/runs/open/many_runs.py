@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any, Unpack
 
@@ -216,7 +216,7 @@ class ManyRuns:
         """State of each run, as `Run.save` returns it."""
         return [saved(ready, self._core[i], [], self.system) for i, ready in enumerate(self._ready)]
 
-    def restore(self, states: Any, *, where: Any = None) -> None:
+    def restore(self, states: bytes | Sequence[bytes], *, where: ArrayLike | None = None) -> None:
         """Put runs to saved states, with which they continue with the same bits.
 
         Parameters
@@ -249,7 +249,7 @@ class ManyRuns:
         self._core.replace(i, run, ready)
         self._readings.pop(i, None)
 
-    def reset(self, p0: Any = None, v0: Any = None, *, where: Any = None) -> None:
+    def reset(self, p0: ArrayLike | None = None, v0: ArrayLike | None = None, *, where: ArrayLike | None = None) -> None:
         """Put runs back to t0, with their first inputs.
 
         Parameters

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,6 +14,9 @@ from ..states.reading import Reading
 from .beginning import Prepared
 from .ending import with_reason
 
+if TYPE_CHECKING:
+    from ..._types import ArrayLike, MeasureLike
+
 
 class Present:
     """Values of an open run at its present time."""
@@ -21,7 +24,7 @@ class Present:
     def _prepare(self, ready: Prepared) -> None:
         self._ready, self.system, self.settings = ready, ready.system, ready.settings
         self.inputs = ready.inputs.values if ready.inputs else np.empty(0)
-        self._places = ready.declared.places() if ready.declared else {}
+        self._places: dict[Any, Any] = ready.declared.places() if ready.declared else {}
 
     def _open(self, core: _gateway.OpenRun) -> None:
         """Read the core's run, from now on."""
@@ -64,7 +67,7 @@ class Present:
         """Constraint reactions (m,) at the present state, with the sign of (7)."""
         return self._core.accelerations()[1]
 
-    def __getitem__(self, name: Any) -> Any:
+    def __getitem__(self, name: MeasureLike) -> Any:
         """Value of an input, coordinate, velocity, measure, or multiplier of a constraint at the present state, by name.
 
         Parameters
@@ -86,7 +89,7 @@ class Present:
             return self._reading(name)
         return float(self.inputs[place]) if type(place) is int else self.inputs[place]
 
-    def __setitem__(self, name: Any, value: Any) -> None:
+    def __setitem__(self, name: MeasureLike, value: ArrayLike) -> None:
         """Set an input, from the next step on: a number; or an array of its shape, or a number for all of its entries.
 
         Raises

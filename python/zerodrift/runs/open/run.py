@@ -20,7 +20,7 @@ from .run_state import restored, saved, unpacked
 from .stepping import Stepping
 
 if TYPE_CHECKING:
-    from ..._types import ArrayLike, EventLike, Inputs, MeasureLike, PathLike, Settings, StateLike, SystemLike
+    from ..._types import ArrayLike, Events, Inputs, Measures, PathLike, Settings, StateLike, SystemLike
 
 
 class Run(Stepping):
@@ -132,7 +132,7 @@ class Run(Stepping):
     def __init__(self, system: SystemLike, p0: StateLike | None = None, v0: ArrayLike | None = None, *, t0: float = 0.0,
                  step: float | None = None, inputs: Inputs | None = None, hold: bool = False, ramp: float | None = None,
                  control: Every | Sequence[Every] | None = None, record: bool = False, save_to: PathLike | None = None,
-                 events: EventLike | Sequence[EventLike] | None = None, outputs: Sequence[MeasureLike] | None = None,
+                 events: Events | None = None, outputs: Measures | None = None,
                  **settings: Unpack[Settings]) -> None:
         t0 = _check.number("t0", t0)
         ready = prepared(system, nominal_span(t0, step), p0, v0, events, outputs, save_to,

@@ -28,8 +28,8 @@ def columns(solution: Any, names: Any = None) -> list[tuple[Variable, np.ndarray
     if names is None:
         return [(Variable(f"multiplier of {name}" if solution.system._effort_of(name) else name, unit), array[:, i])
                 for array, variables in solution._named() for i, (name, unit) in enumerate(variables)]
-    names = [names] if isinstance(names, str) or not isinstance(names, Sequence) else names
-    return [column for name in names for column in _components(solution, getattr(name, "name", name))]
+    several: Any = [names] if isinstance(names, str) or not isinstance(names, Sequence) else names
+    return [column for name in several for column in _components(solution, getattr(name, "name", name))]
 
 
 def _components(solution: Any, name: str) -> list[tuple[Variable, np.ndarray]]:

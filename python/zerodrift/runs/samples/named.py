@@ -12,6 +12,9 @@ from ...errors import WrongName
 from ...systems.base import BaseSystem
 from ...systems.measure_values import AXES, view
 
+if TYPE_CHECKING:
+    from ..._types import MeasureLike
+
 
 class Stats(dict):
     """Dictionary of statistics whose error for a missing key lists the keys."""
@@ -30,7 +33,7 @@ class Named:
         multipliers: np.ndarray
         outputs: dict[str, np.ndarray]
 
-    def __getitem__(self, name: Any) -> np.ndarray:
+    def __getitem__(self, name: MeasureLike | tuple[MeasureLike, Any]) -> np.ndarray:
         """Values of a coordinate, velocity, measure, or multiplier of a constraint at all samples, by name.
 
         Parameters
@@ -94,7 +97,7 @@ class Named:
         values = list(self.outputs.values())[place.number]
         return place.pick(values) if values.ndim > 1 < values.shape[1] else values
 
-    def unique(self, name: str, body: Any = None) -> Any:
+    def unique(self, name: MeasureLike, body: Any = None) -> Any:
         """Return whether a measure of a mechanism is determined uniquely, although constraints are redundant.
 
         With redundant constraints, the motion of rigid bodies does not determine all reactions. The least ones are reported then:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ... import _check, _gateway
 from ...systems.base import core_of, system_of
 from ..arguments import outputs as _outputs
 from ..arguments import settings
 from . import memory
+
+if TYPE_CHECKING:
+    from ..._types import ArrayLike, Measures, SystemLike
 
 
 class RecordSize(NamedTuple):
@@ -33,8 +36,8 @@ class RecordSize(NamedTuple):
         return each if self.total is None else f"{self.rows} {each}: {memory.in_words(self.total)}"
 
 
-def record_size(system: Any, t_span: float | tuple[float, float], *, step: float | None = None, t_eval: Any = None,
-                save_every: int = 1, outputs: Any = None) -> RecordSize:
+def record_size(system: SystemLike, t_span: float | tuple[float, float], *, step: float | None = None,
+                t_eval: ArrayLike | None = None, save_every: int = 1, outputs: Measures | None = None) -> RecordSize:
     """Size of the record that `simulate` would make with these arguments. Nothing is simulated.
 
     Parameters

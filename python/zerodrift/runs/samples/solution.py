@@ -23,6 +23,8 @@ from .summary import summary
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from ..._types import ArrayLike
+
 A_SOLUTION = "a Solution, as zd.simulate returns it"      # for error messages
 
 
@@ -140,15 +142,17 @@ class Solution(Named):
         vars(made).update(values, _others=others)
         return made
 
-    def __getattr__(self, name: str) -> Any:
-        values = vars(self)
-        if (others := values.get("_others")) and name in FIELDS:    # other threads may do the same and get equal values
-            values.update(others())
-            self.__post_init__()
-            values["_others"] = None
-        if name in FIELDS and name in values:
-            return values[name]
-        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
+    if not TYPE_CHECKING:       # which has the fields already
+
+        def __getattr__(self, name: str) -> Any:
+            values = vars(self)
+            if (others := values.get("_others")) and name in FIELDS:    # other threads may do the same and get equal values
+                values.update(others())
+                self.__post_init__()
+                values["_others"] = None
+            if name in FIELDS and name in values:
+                return values[name]
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
 
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *FIELDS})
@@ -160,7 +164,7 @@ class Solution(Named):
     def __repr__(self) -> str:
         return summary(self)
 
-    def __call__(self, t: Any) -> tuple[np.ndarray, np.ndarray]:
+    def __call__(self, t: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """Coordinates and velocities at any times between the first and the last sample.
 
         With adaptive steps, the step around each time is repeated and its dense output evaluated, if the method has one: of

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,6 +12,9 @@ from ... import _check
 from ...errors import WrongType, WrongValue
 from ...systems.base import BaseSystem, Makes, core_of, system_of
 from .operations import acceleration, project
+
+if TYPE_CHECKING:
+    from ..._types import ArrayLike, MeasureLike, SystemLike
 
 
 def _sample(values: Any) -> np.ndarray:
@@ -30,7 +33,7 @@ class Reading:
     _acting: Any = None     # efforts besides the forces of the system, see `CoreSystem.measure`
     _least: np.ndarray | None = None        # (1, m) multipliers of the least reactions
 
-    def __getitem__(self, given: Any) -> Any:
+    def __getitem__(self, given: MeasureLike) -> Any:
         name, of = getattr(given, "name", given), self.system
         if (place := of._watching.view(name)) is not None:
             states = self._state_for(place.number)
@@ -99,7 +102,7 @@ class Instant(Reading):
     (3.0, -9.0)
     """
 
-    def __init__(self, system: Any, t: float = 0.0, p: Any = None, v: Any = None) -> None:
+    def __init__(self, system: SystemLike, t: float = 0.0, p: ArrayLike | None = None, v: ArrayLike | None = None) -> None:
         self.system, self.t = system_of(system), _check.number("t", t)
         core_of(self.system)
         p, v = self.system._state_or_start(p, v, "p", "v", self.t)
@@ -131,7 +134,7 @@ class Instant(Reading):
         return f"<{self.system.name} at t = {self.t:g} s: {shown}>"
 
 
-def start_of(system: Any, p0: Any, v0: Any, t0: float) -> tuple[BaseSystem, Any, Any]:
+def start_of(system: Any, p0: Any, v0: Any, t0: float) -> tuple[Any, Any, Any]:
     """System and initial state (p0, v0) from the arguments of a run.
 
     An equilibrium or a `zerodrift.Instant` gives its position and velocities; these are projected onto drives that move at t0.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -13,12 +13,15 @@ from ...errors import WrongType, WrongValue
 from ...systems.base import BaseSystem, Makes, core_of, system_of
 from ..arguments import methods, settings
 
+if TYPE_CHECKING:
+    from ..._types import ArrayLike, Formulation, Measures, Projection, SystemLike, Values
+
 TOL, ITERATIONS = 1e-12, 100      # defaults of `assemble`
 NUDGE = 1e-3                      # default displacement, in rad or relative to the size of the mechanism
 
 
-def assemble(system: BaseSystem, p: Any = None, v: Any = None, hold: Any = (), *, wish: Mapping[Any, Any] | None = None,
-             nudge: bool | float = False, t: float = 0.0, tol: float = TOL,
+def assemble(system: SystemLike, p: ArrayLike | Values | None = None, v: ArrayLike | None = None, hold: Measures = (), *,
+             wish: Values | None = None, nudge: bool | float = False, t: float = 0.0, tol: float = TOL,
              max_iterations: int = ITERATIONS) -> tuple[np.ndarray, np.ndarray]:
     """Find a consistent state near a guess, or the state of a mechanism near its reference configuration.
 
@@ -134,8 +137,8 @@ def _name_of(held: Any, known: Mapping[str, Variable]) -> str:
     return name if isinstance(name, str) and name in known else _check.choice("hold", name, list(known))
 
 
-def project(system: BaseSystem, p: Any, v: Any, t: float = 0.0, *, projection: methods.Projection | None = None,
-            formulation: str | None = None) -> tuple[np.ndarray, np.ndarray]:
+def project(system: SystemLike, p: ArrayLike, v: ArrayLike, t: float = 0.0, *, projection: Projection | None = None,
+            formulation: Formulation | None = None) -> tuple[np.ndarray, np.ndarray]:
     """Project positions and velocities onto the constraints, (25)-(27), as after a step of `simulate`.
 
     Parameters
@@ -186,8 +189,8 @@ def _corrected(system: Any, p: Any, v: Any, t: Any, projection: methods.Projecti
     return p, v
 
 
-def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation: str | None = None,
-                 on_singular: str = "stop") -> tuple[np.ndarray, np.ndarray]:
+def acceleration(system: SystemLike, p: ArrayLike, v: ArrayLike, t: float = 0.0, formulation: Formulation | None = None,
+                 on_singular: Literal["stop", "continue"] = "stop") -> tuple[np.ndarray, np.ndarray]:
     """Accelerations and multipliers at (t, p, v).
 
     Parameters
