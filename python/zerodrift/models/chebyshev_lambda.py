@@ -14,7 +14,7 @@ from ._arguments import checked
 
 
 @checked
-def chebyshev_lambda(*, crank: float = 0.1, speed: float = 2 * np.pi, mass: float | Mapping[str, float] = 0.2,
+def chebyshev_lambda(*, crank: float = 0.1, speed: float = 2 * np.pi, mass: Mapping[str, float] | float = 0.2,
                      gravity: ArrayLike | None = None) -> Mechanism:
     """The four-bar of Chebyshev's plantigrade machine: its ground is 2, coupler and rocker are 2.5 cranks long.
 

@@ -16,7 +16,7 @@ from ._arguments import checked
 
 @checked
 def hoecken(*, crank: float = 0.1, ground: float = 2.5, coupler: float = 3.25, speed: float = 2 * np.pi,
-            mass: float | Mapping[str, float] = 0.2, gravity: ArrayLike | None = None) -> Mechanism:
+            mass: Mapping[str, float] | float = 0.2, gravity: ArrayLike | None = None) -> Mechanism:
     """A crank-rocker whose rocker and both halves of the coupler are equally long; its point ``P`` draws a line.
 
     The proportions are those that Norton tables as the straightest over 140 degrees of the crank: there, while the crank turns

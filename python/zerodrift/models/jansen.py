@@ -19,7 +19,7 @@ LENGTHS = {"ZX": 15, "XV": 50, "XU": 61.9, "YV": 41.5, "VW": 55.8, "YW": 40.1, "
 
 
 @checked
-def jansen(*, speed: float = -2 * np.pi, mass: float | Mapping[str, float] = 1.0, scale: float = 0.01,
+def jansen(*, speed: float = -2 * np.pi, mass: Mapping[str, float] | float = 1.0, scale: float = 0.01,
            gravity: ArrayLike = (0.0, -9.81)) -> Mechanism:
     """The leg of Jansen's walking machines: one crank, seven links, and a foot whose path is flat below.
 

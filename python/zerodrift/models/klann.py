@@ -19,7 +19,7 @@ LENGTHS = {"OM": 0.268, "MC": 0.590, "CD": 0.522, "MD": 1.105, "BC": 0.321, "AE"
 
 
 @checked
-def klann(*, speed: float = -2 * np.pi, mass: float | Mapping[str, float] = 1.0, scale: float = 0.4,
+def klann(*, speed: float = -2 * np.pi, mass: Mapping[str, float] | float = 1.0, scale: float = 0.4,
           gravity: ArrayLike = (0.0, -9.81)) -> Mechanism:
     """The leg of Klann's walking machines: a crank, two rockers, a connecting rod and the leg, six bars of Stephenson's kind.
 

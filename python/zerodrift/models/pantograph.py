@@ -19,7 +19,7 @@ MIDDLE = np.array([1.0, 0.6])       # of the figure, in arms from O
 
 @checked
 def pantograph(*, arm: float = 0.2, ratio: float = 2.0, size: float = 0.05, rate: float = 2 * np.pi,
-               mass: float | Mapping[str, float] = 0.1, gravity: ArrayLike | None = None) -> Mechanism:
+               mass: Mapping[str, float] | float = 0.1, gravity: ArrayLike | None = None) -> Mechanism:
     """Four bars about a parallelogram, such that ``O``, the tracer ``Q`` and the pen ``P`` are in line, and O P is ratio O Q.
 
     The tracer is led along a lying eight, size wide to each side and half as high, so that both freedoms are driven. The bars

@@ -20,7 +20,7 @@ LINKS = {"ground": "ADF", "crank": "AB", "coupler": "BCE", "rocker": "DC", "link
 
 
 @checked
-def stephenson(*, speed: float = 2 * np.pi, mass: float | Mapping[str, float] = 0.2, scale: float = 1.0,
+def stephenson(*, speed: float = 2 * np.pi, mass: Mapping[str, float] | float = 0.2, scale: float = 1.0,
                gravity: ArrayLike | None = None) -> Mechanism:
     """A crank ``AB``, a coupler with three hinges, ``BCE``, two rockers on the ground, ``DC`` and ``FG``, and a link ``EG``.
 

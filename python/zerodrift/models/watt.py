@@ -17,7 +17,7 @@ from ._swing import swing
 
 @checked
 def watt(*, rocker: float = 0.5, coupler: float = 0.2, amplitude: float = 0.35, rate: float = 2 * np.pi,
-         mass: float | Mapping[str, float] = 0.2, gravity: ArrayLike | None = None) -> Mechanism:
+         mass: Mapping[str, float] | float = 0.2, gravity: ArrayLike | None = None) -> Mechanism:
     """Two equal rockers, level in the middle position, and an upright coupler between them, whose middle ``P`` goes up and down.
 
     P stays on Watt's curve, an eight with a nearly straight piece through the middle. The links are ``left``, ``coupler`` and
