@@ -17,7 +17,7 @@ from zerodrift.mechanisms.elements.table_forces import MOMENT
 STUB = Path(table_verbs.__file__).with_suffix(".pyi")
 HEAD = '''"""Methods of `Mechanism` made from the core's tables; written by tests/mechanisms/stub_of_verbs.py."""
 
-from ..._types import ArrayLike, Bindings, LawLike
+from ..._types import {types}
 from ..elements import forces
 from ..elements.bodies import Body, Point
 from ..elements.joints import Joint
@@ -72,7 +72,8 @@ def stub():
     classes += [declared_class(force.__name__, f"forces.{force.__name__}" if hasattr(forces, force.__name__) else "TableForce",
                                [force], getattr(force, "stored", {}).values()) for force in table_verbs.FORCES.values()]
     methods = [method for name, method in vars(table_verbs.TableVerbs).items() if not name.startswith("_")]
-    return HEAD + "\n".join([*classes, "class TableVerbs(Elements):", *map(declared, methods)])
+    body = "\n".join([*classes, "class TableVerbs(Elements):", *map(declared, methods)])
+    return HEAD.format(types=", ".join(each for each in ("ArrayLike", "Bindings", "LawLike") if each in body)) + body
 
 
 if __name__ == "__main__":
