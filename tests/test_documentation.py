@@ -106,6 +106,17 @@ def test_links_of_the_readme_lead_to_files():
     assert not [link for link in links if not (ROOT / link).is_file()]
 
 
+def test_files_that_contributors_change_and_run_exist():
+    page = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    named = set(re.findall(r"(?:csrc|python|tests|notebooks|\.ci)/[\w./]*\w|\w+\.(?:cff|md)\b", page)) - {"notebooks/use"}
+    assert len(named) > 25
+    assert not [name for name in sorted(named) if not (ROOT / name).exists()]
+    for table in ("ZD_INTEGRATOR_LIST", "joints[]", "elements[]"):
+        assert table in page
+    assert "ZD_INTEGRATOR_LIST" in (ROOT / "csrc" / "methods.h").read_text(encoding="utf-8")
+    assert len(page.split()) < 800
+
+
 def test_paths_of_the_architecture_page_exist():
     """Files and folders that the page names, and the functions that it names beside a file."""
     page = (ROOT / "notebooks" / "theory" / "architecture.md").read_text(encoding="utf-8")

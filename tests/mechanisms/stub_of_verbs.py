@@ -1,6 +1,6 @@
-"""Writes `table_verbs.pyi`, the declarations of the methods that are made from the core's tables, from their signatures.
+"""The text of `table_verbs.pyi`: declarations of the methods that are made from the core's tables, from their signatures.
 
-PYTHONPATH=python:tests:tests/support python tests/mechanisms/stub_of_verbs.py
+tests/support/stubs.py writes it.
 """
 
 import inspect
@@ -15,7 +15,7 @@ from zerodrift.mechanisms.elements.space_joints import BY_KIND
 from zerodrift.mechanisms.elements.table_forces import MOMENT
 
 STUB = Path(table_verbs.__file__).with_suffix(".pyi")
-HEAD = '''"""Methods of `Mechanism` made from the core's tables; written by tests/mechanisms/stub_of_verbs.py."""
+HEAD = '''"""Methods of `Mechanism` made from the core's tables; written by tests/support/stubs.py."""
 
 from ..._types import {types}
 from ..elements import forces
@@ -74,7 +74,3 @@ def stub():
     methods = [method for name, method in vars(table_verbs.TableVerbs).items() if not name.startswith("_")]
     body = "\n".join([*classes, "class TableVerbs(Elements):", *map(declared, methods)])
     return HEAD.format(types=", ".join(each for each in ("ArrayLike", "Bindings", "LawLike") if each in body)) + body
-
-
-if __name__ == "__main__":
-    STUB.write_text(stub(), encoding="utf-8")

@@ -20,7 +20,8 @@ from covering import spread
 
 pytestmark = needs_compiler
 
-METHODS = ["euler", "midpoint", "heun", "rk4", "dormand_prince", "dop853"]
+METHODS = sorted(path.stem for path in (CSRC / "integrators").glob("*.c")
+                 if "\nZD_RUNGE_KUTTA_STEP\n" in path.read_text(encoding="utf-8"))
 POLYNOMIALS = {"dormand_prince": 4, "dop853": 6}        # whose conditions they meet
 CONDITION_ROUNDING = 1e-13  # entries of up to 1200 are rounded at 2^-53, and multiplied by (x z)^2 <= 1 / 16
 OFF = 1e-6

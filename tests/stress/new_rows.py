@@ -659,7 +659,7 @@ def main(folder):
     run(folder, sys.executable, "setup.py", "-q", "build_ext", "--inplace")
     for script in (CLOSED_FORMS, JOINTS_USED, SPACE_USED):
         print(run(folder, sys.executable, "-c", script))
-    run(folder, sys.executable, "tests/mechanisms/stub_of_verbs.py")        # the generated declarations for editors
+    run(folder, sys.executable, "tests/support/stubs.py")        # the generated declarations for editors
     for picked in ([*WHOLE], ["tests", "-k", NAMES]):
         print(run(folder, sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *picked).splitlines()[-1])
 

@@ -1,5 +1,5 @@
 """Writes the declarations of what is imported or made on demand, from the package itself: `__init__.pyi` of the package and of
-`systems`, and `_types.pyi`, the types of arguments, with the names in the core's tables.
+`systems`; `_types.pyi`, the types of arguments, with the names in the core's tables; `table_verbs.pyi`, methods of `Mechanism`.
 
 PYTHONPATH=python:tests:tests/support python tests/support/stubs.py
 """
@@ -9,6 +9,7 @@ import textwrap
 from pathlib import Path
 
 import zerodrift as zd
+from mechanisms import stub_of_verbs
 from zerodrift.runs.arguments import methods, settings
 from zerodrift.runs.simulate import _read, simulate
 from zerodrift.systems import builtin
@@ -145,7 +146,8 @@ def package():
                       "__version__: str", ""])
 
 
-STUBS = {PACKAGE / "_types.pyi": types, PACKAGE / "__init__.pyi": package, PACKAGE / "systems" / "__init__.pyi": systems}
+STUBS = {PACKAGE / "_types.pyi": types, PACKAGE / "__init__.pyi": package, PACKAGE / "systems" / "__init__.pyi": systems,
+         stub_of_verbs.STUB: stub_of_verbs.stub}
 
 if __name__ == "__main__":
     for path, text in STUBS.items():

@@ -1,4 +1,4 @@
-"""Methods of `Mechanism` made from the core's tables; written by tests/mechanisms/stub_of_verbs.py."""
+"""Methods of `Mechanism` made from the core's tables; written by tests/support/stubs.py."""
 
 from ..._types import ArrayLike
 from ..elements import forces

@@ -120,7 +120,8 @@ def _source(card: _gateway.Card) -> str:
 
 
 def _paragraph(text: str, indent: str = "  ") -> list[str]:
-    return [*textwrap.wrap(text, WIDTH, initial_indent=indent, subsequent_indent=indent), ""] if text else []
+    lines = textwrap.wrap(text, WIDTH, initial_indent=indent, subsequent_indent=indent, break_on_hyphens=False)
+    return [*lines, ""] if text else []
 
 
 def _kind(parameter: _gateway.Parameter) -> str:
