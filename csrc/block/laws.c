@@ -170,7 +170,7 @@ static double operation_value(enum zd_block_code code, double a, double b, doubl
 /* value <- derivative of order 0, 1 or 2 of a spline at x. Returns 0 beyond its ends, up to rounding. */
 static int spline_value(const zd_block_layout *layout, int spline, double x, int order, double *value)
 {
-    static const double BEYOND = 1e-9;      /* rounding beyond the ends, part of the length, that is accepted as in interpolation.py */
+    static const double BEYOND = 1e-9;      /* rounding beyond the ends, part of the length, that is accepted as in laws/table.py */
     const double *word = zd_block_entry(layout, ZD_BLOCK_SPLINES, spline);
     const double *knot = zd_block_entry(layout, ZD_BLOCK_KNOTS, (int)word[0]);
     int low = 0, high = (int)word[1] - 1;

@@ -102,7 +102,7 @@ _LATER = {      # imported, or made, at first use
     "linearize": "analysis.linearize", "linkage": "mechanisms.linkage", "load": "files", "mass_matrix": "analysis.matrices",
     "native": "systems.native", "numba_signature": "systems.native", "reach": "tracing.trace",
     "record_size": "runs.samples.record_size", "reference": "studies.reference", "stability_map": "studies.stability_map",
-    "symbolic": "symbolics.define", "table": "mechanisms.elements.interpolation", "trace": "tracing.trace",
+    "symbolic": "symbolics.define", "table": "laws.table", "trace": "tracing.trace",
     "transmission_angle": "tracing.transmission", "tune": "studies.tune", "view": "player.view",
     "work_precision": "studies.work_precision",
 }

@@ -82,7 +82,7 @@ from .export.block import block as block
 from .export.c_source import c_source as c_source
 from .export.fmu import fmu as fmu
 from .files import load as load
-from .mechanisms.elements.interpolation import table as table
+from .laws.table import table as table
 from .mechanisms.linkage import linkage as linkage
 from .mechanisms.mechanism import Mechanism as Mechanism
 from .player.explore import explore as explore

@@ -7,7 +7,7 @@ from typing import Any
 
 from .._gateway.mechanisms.blocks import FUNCTIONS, OPERATIONS
 from ..errors import WrongValue
-from ..mechanisms.elements.interpolation import Table
+from ..laws.table import Table
 from ..mechanisms.equations import function_calls, function_code
 from ..symbolics.compile.law_terms import Leaves
 from ..symbolics.graph.lowering import Lowering

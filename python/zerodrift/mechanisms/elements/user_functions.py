@@ -13,10 +13,10 @@ import numpy as np
 from ... import _check
 from ..._gateway.inputs import EFFORT_LAW, SPEED_LAW
 from ...errors import WrongType, WrongValue
+from ...laws.table import recognised
 from ...symbolics.graph.smoothness import is_plain_expression
 from ...systems import autodiff
 from ...systems.user_callables import arguments
-from .interpolation import recognised
 from .measures import name_of
 
 

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ... import _check
-from ...errors import WrongType, WrongValue
-from ...systems import autodiff
+from .. import _check
+from ..errors import WrongType, WrongValue
+from ..systems import autodiff
 
 if TYPE_CHECKING:
-    from ..._types import ArrayLike
+    from .._types import ArrayLike
 
 BEYOND = 1e-9       # of the table's length: rounding beyond its ends that is accepted
 
