@@ -35,18 +35,21 @@ typedef struct inverse {
     double *size;           /* (m,): these sizes, square roots of the diagonal of C M^-1 C^T; where M is singular, lengths */
 } inverse;
 
-static inverse create(zd_arena *arena, const zd_system *system, const zd_given_motion *given, zd_statistics *statistics)
+static void *create(zd_arena *arena, const void *of)
 {
+    const zd_given_motion *given = of;
+    const zd_system *system = given->system;
     const int n = system->nv, m = zd_constraints(system), count = given->efforts;
     const size_t nv = (size_t)n;
-    return (inverse){
-        .given = given, .point = zd_point_create(arena, system, statistics), .n = n, .m = m,
+    const inverse self = {
+        .given = given, .point = zd_point_create(arena, system, zd_arena_bytes(arena, sizeof(zd_statistics))), .n = n, .m = m,
         .rows = zd_row_space_create(arena, m, n), .length = zd_arena_doubles(arena, (size_t)m),
         .Z = zd_arena_doubles(arena, nv * nv), .L = zd_arena_doubles(arena, nv * nv),
         .acting = zd_row_space_create(arena, n, count), .projected = zd_arena_doubles(arena, nv * (size_t)(count + 1)),
         .wanted = zd_arena_doubles(arena, nv), .right = zd_arena_doubles(arena, nv), .across = zd_arena_doubles(arena, nv),
         .x = zd_arena_doubles(arena, nv), .redundant = zd_row_space_create(arena, n, m), .size = zd_arena_doubles(arena, (size_t)m),
     };
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 /* True if the motion violates the constraints (3), (5) or (6) */
@@ -71,15 +74,10 @@ static void factor_constraints(inverse *self)
 {
     const int n = self->n, m = self->m;
     double *row = self->rows.A, longest = 0;
-    for (int i = 0; i < m; i++, row += n) {
-        const zd_row_of_C of = zd_point_row(self->point, i);
-        zd_row_expand(&of, n, row);
-        if (zd_largest(n, row) <= self->point->rounding[i]) memset(row, 0, (size_t)n * sizeof *row);
-        for (int j = 0; j < n; j++) row[j] *= self->given->scale[j];
-        self->length[i] = sqrt(zd_dot(n, row, row));
+    for (int i = 0; i < m; i++) {
+        self->length[i] = zd_point_scaled_row(self->point, i, self->given->scale, row + i * n);
         longest = fmax(longest, self->length[i]);
     }
-    row = self->rows.A;
     for (int i = 0; i < m; i++, row += n) {
         if (!(self->length[i] > 0)) continue;
         self->length[i] = fmax(self->length[i], DEPENDENT * longest);
@@ -213,12 +211,13 @@ static void solve(inverse *self, int64_t i, const zd_needed_efforts *to)
     find_multipliers(self, to->multipliers + i * self->m);
 }
 
-static int solve_all(inverse *self, zd_needed_efforts *to)
+int zd_inverse_dynamics(const zd_given_motion *given, zd_needed_efforts *to)
 {
-    const zd_given_motion *given = self->given;
-    const int64_t nq = self->point->system->nq, nv = self->n;
     const int needs = ZD_M | ZD_PHI | ZD_C | ZD_PHI_T | ZD_XI | (given->force ? 0 : ZD_FORCE | ZD_BIAS);
-    int status = ZD_DONE;
+    const int64_t nq = given->system->nq, nv = given->system->nv;
+    zd_store store = {NULL};
+    inverse *self = zd_store_create(&store, create, given);
+    int status = self ? ZD_DONE : ZD_NO_MEMORY;
     for (int64_t i = 0; i < given->states && !status; i++) {
         to->sample = i;
         zd_point_move(self->point, given->t[i], given->p + i * nq, given->v + i * nv);
@@ -228,19 +227,6 @@ static int solve_all(inverse *self, zd_needed_efforts *to)
         if (!status) status = find_tangent(self);
         if (!status) solve(self, i, to);
     }
-    return status;
-}
-
-int zd_inverse_dynamics(const zd_system *system, const zd_given_motion *given, zd_needed_efforts *to)
-{
-    zd_statistics statistics = {0};
-    zd_arena counting = {0};
-    create(&counting, system, given, &statistics);
-    zd_memory *memory = zd_memory_create(counting.used);
-    if (!memory) return ZD_NO_MEMORY;
-    zd_arena arena = zd_arena_in(memory);
-    inverse self = create(&arena, system, given, &statistics);
-    const int status = solve_all(&self, to);
-    zd_memory_free(memory);
+    zd_store_release(&store);
     return status;
 }

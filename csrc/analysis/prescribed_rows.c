@@ -8,6 +8,7 @@
 
 static const double DEPENDENT = 1e-9;   /* remaining norm relative to the largest at which a row is redundant; rounding leaves 1e-13 */
 static const double SHORT_ROW = 1e-3;   /* norm of a row relative to the longest: smaller ones are divided by that */
+static const double REGULAR = 1e-3;     /* relative pivot above which rows are far from redundant */
 
 zd_prescribed_rows zd_prescribed_rows_create(zd_arena *arena, const zd_prescribed_motion *motion)
 {
@@ -18,7 +19,7 @@ zd_prescribed_rows zd_prescribed_rows_create(zd_arena *arena, const zd_prescribe
     zd_statistics *statistics = zd_arena_bytes(arena, sizeof *statistics);
     return (zd_prescribed_rows){
         .motion = motion, .point = zd_point_create(arena, system, statistics), .positions = positions, .rows = rows,
-        .unit = zd_arena_doubles(arena, all * nv), .length = zd_arena_doubles(arena, all), .value = zd_arena_doubles(arena, all),
+        .unit = zd_arena_doubles(arena, all * nv), .inverse_length = zd_arena_doubles(arena, all), .value = zd_arena_doubles(arena, all),
         .bias = zd_arena_doubles(arena, all), .space = zd_row_space_create(arena, positions, system->nv),
         .right = zd_arena_doubles(arena, all), .y = zd_arena_doubles(arena, nv), .components = zd_arena_doubles(arena, components),
         .jacobian = zd_arena_doubles(arena, components * nv),
@@ -29,17 +30,15 @@ zd_prescribed_rows zd_prescribed_rows_create(zd_arena *arena, const zd_prescribe
 
 /* ---- prescribed quantities ---- */
 
-/* The derivative of row i of A along the motion, times v. */
-static int find_bias_of_coordinate(zd_prescribed_rows *self, int i, double *bias)
+/* change (nq,) <- the derivative of A along the motion, times v. */
+static int find_biases_of_coordinates(zd_prescribed_rows *self, double *change)
 {
     zd_point *point = self->point;
-    double *pdot = self->rates, *change = pdot + point->system->nq;
+    double *pdot = self->rates;
     zd_point_rate(point, point->v, pdot);
     const double size = fmax(zd_max_scaled(point->system->nq, pdot, self->motion->inverse_scale_p), DBL_MIN);
     zd_residual_state_begin(&self->residuals, ZD_RESIDUAL_PDOT, point, NULL, NULL);
-    const int status = zd_residual_derivatives(&self->residuals, &(zd_direction){.p = pdot}, 1 / size, ZD_ACCURATE, change);
-    *bias = change[i];
-    return status;
+    return zd_residual_derivatives(&self->residuals, &(zd_direction){.p = pdot}, 1 / size, ZD_ACCURATE, change);
 }
 
 /* Values of all quantities with their derivatives, or their biases. */
@@ -47,49 +46,60 @@ static int read_quantities(zd_prescribed_rows *self, int is_bias)
 {
     const zd_prescribed_motion *motion = self->motion;
     zd_point *at = self->point;
-    const zd_measured bias = {.bias = self->components}, value = {.value = self->components, .jacobian = self->jacobian};
+    const zd_measured bias = {.bias = self->components, .is_same_state = 2}, value = {.value = self->components, .jacobian = self->jacobian};
     const int nv = at->system->nv;
-    double *row = self->unit + at->system->mh * nv, *to = is_bias ? self->bias : self->value;
+    double *row = self->unit + at->system->mh * nv, *to = is_bias ? self->bias : self->value, *biases = NULL;
     int status = zd_measure_states(motion->measured, at->inputs, motion->measures, motion->measure, 1, &at->t, at->p, at->v, NULL, NULL,
                                    is_bias ? &bias : &value, self->scratch);
     for (int i = 0; i < motion->quantities && !status; i++, row += nv) {
         const int k = motion->which[i], coordinate = -1 - k;
         if (k >= 0) to[i] = self->components[k];
-        else if (is_bias) status = find_bias_of_coordinate(self, coordinate, to + i);
-        else status = zd_point_need(at, ZD_A), to[i] = at->p[coordinate];
-        for (int j = 0; j < nv && !is_bias && !status; j++) row[j] = k < 0 ? zd_entry_of_A(at, coordinate, j) : self->jacobian[k * nv + j];
+        else if (!is_bias) status = zd_point_need(at, ZD_A), to[i] = at->p[coordinate];
+        else {
+            if (!biases) status = find_biases_of_coordinates(self, biases = self->rates + at->system->nq);
+            to[i] = biases[coordinate];
+        }
+        if (is_bias || status) continue;
+        for (int j = 0; j < nv; j++) row[j] = motion->scale_v[j] * (k < 0 ? zd_entry_of_A(at, coordinate, j) : self->jacobian[k * nv + j]);
+        self->inverse_length[at->system->mh + i] = sqrt(zd_dot(nv, row, row));
     }
     return status > 0 ? ZD_CALLBACK : status;
 }
 
 /* ---- rows ---- */
 
-/* Row of constraint k, zero where it is the rounding error of terms that cancel. */
-static void write_constraint(zd_prescribed_rows *self, int k)
-{
-    const zd_point *point = self->point;
-    const int nv = point->system->nv, mh = point->system->mh;
-    const zd_row_of_C row = zd_point_row(point, k);
-    double *to = self->unit + (k < mh ? k : k + self->motion->quantities) * nv;
-    zd_row_expand(&row, nv, to);
-    if (zd_largest(nv, to) <= point->rounding[k]) memset(to, 0, (size_t)nv * sizeof *to);
-}
-
-/* Scales the rows and divides them by their lengths. */
+/* Writes the rows of constraints, and divides all by their lengths. */
 static void normalize(zd_prescribed_rows *self)
 {
-    const int nv = self->point->system->nv;
-    double *row = self->unit, longest = DBL_MIN;
-    for (int k = 0; k < self->rows; k++, row += nv) {
-        for (int i = 0; i < nv; i++) row[i] *= self->motion->scale_v[i];
-        self->length[k] = sqrt(zd_dot(nv, row, row));
-        longest = fmax(longest, self->length[k]);
+    const int nv = self->point->system->nv, mh = self->point->system->mh;
+    double *inverse = self->inverse_length;
+    for (int k = 0; k < zd_constraints(self->point->system); k++) {
+        const int i = k < mh ? k : k + self->motion->quantities;
+        inverse[i] = zd_point_scaled_row(self->point, k, self->motion->scale_v, self->unit + i * nv);
     }
-    row = self->unit;
-    for (int k = 0; k < self->rows; k++, row += nv) {
-        self->length[k] = fmax(self->length[k], SHORT_ROW * longest);
-        for (int i = 0; i < nv; i++) row[i] /= self->length[k];
+    const double least = fmax(SHORT_ROW * zd_largest(self->rows, inverse), DBL_MIN);
+    for (int k = 0; k < self->rows; k++) {
+        inverse[k] = 1 / fmax(inverse[k], least);
+        for (int i = k * nv; i < (k + 1) * nv; i++) self->unit[i] *= inverse[k];
     }
+}
+
+static void factor(zd_prescribed_rows *self)
+{
+    zd_row_space *space = &self->space;
+    const int n = space->n;
+    const size_t bytes = (size_t)(self->positions * n) * sizeof *self->unit;
+    double *A = memcpy(space->A, self->unit, bytes), largest = 0;   /* reciprocal of a pivot */
+    self->is_square = self->positions == n && zd_lu_factor(n, A, space->order) == n;
+    for (int k = 0; k < n && self->is_square; k++) largest = fmax(largest, fabs(A[k * n + k]));
+    space->rank = n;
+    self->pivot = self->is_square ? 1 / largest : 0;
+    self->is_square = self->pivot > REGULAR;
+    if (self->is_square) return;
+    memcpy(A, self->unit, bytes);
+    zd_row_space_factor(space, self->positions, DEPENDENT, 0);
+    space->rows = space->rank;      /* the redundant ones are not solved */
+    self->pivot = space->rank < n ? 0 : fabs(space->diagonal[n - 1] / space->diagonal[0]);
 }
 
 int zd_prescribed_rows_factor(zd_prescribed_rows *self, double t, const double *p)
@@ -100,18 +110,9 @@ int zd_prescribed_rows_factor(zd_prescribed_rows *self, double t, const double *
     if (!status) status = zd_point_need_times_A(point, ZD_PHI | ZD_C | ZD_PHI_T);
     if (!status) status = read_quantities(self, 0);
     if (status) return status;
-    for (int k = 0; k < zd_constraints(point->system); k++) write_constraint(self, k);
     normalize(self);
-    memcpy(self->space.A, self->unit, (size_t)(self->positions * point->system->nv) * sizeof *self->unit);
-    zd_row_space_factor(&self->space, self->positions, DEPENDENT, 0);
-    self->space.rows = self->space.rank;        /* the redundant ones are not solved */
+    factor(self);
     return ZD_DONE;
-}
-
-double zd_prescribed_rows_pivot(const zd_prescribed_rows *self)
-{
-    const zd_row_space *space = &self->space;
-    return space->rank < space->n ? 0 : fabs(space->diagonal[space->n - 1] / space->diagonal[0]);
 }
 
 int zd_prescribed_rows_move(zd_prescribed_rows *self, const double *v)
@@ -123,9 +124,11 @@ int zd_prescribed_rows_move(zd_prescribed_rows *self, const double *v)
 
 void zd_prescribed_rows_solve(zd_prescribed_rows *self, double *x)
 {
-    for (int k = 0; k < self->rows; k++) self->right[k] /= self->length[k];
-    zd_row_space_solve(&self->space, self->right, self->y);
-    for (int i = 0; i < self->space.n; i++) x[i] = self->motion->scale_v[i] * self->y[i];
+    const int n = self->space.n;
+    for (int k = 0; k < self->rows; k++) self->right[k] *= self->inverse_length[k];
+    if (self->is_square) zd_lu_solve(n, self->space.A, self->space.order, memcpy(self->y, self->right, (size_t)n * sizeof *self->y));
+    else zd_row_space_solve(&self->space, self->right, self->y);
+    for (int i = 0; i < n; i++) x[i] = self->motion->scale_v[i] * self->y[i];
 }
 
 double zd_prescribed_rows_residual(const zd_prescribed_rows *self, int rows)

@@ -13,10 +13,12 @@ typedef struct zd_prescribed_rows {
     const zd_prescribed_motion *motion;
     zd_point *point;        /* the state of the rows */
     int positions, rows;    /* numbers of rows without the nonholonomic ones, and of all */
-    double *unit;           /* (rows, nv): rows in scaled velocities, divided by `length` */
-    double *length;         /* (rows,): their norms, but at least a share of the largest */
+    double *unit;           /* (rows, nv): rows in scaled velocities, times `inverse_length` */
+    double *inverse_length; /* (rows,): 1 / their norms, but at most those of a share of the largest */
     double *value, *bias;   /* (quantities,): values, and second derivatives minus row vdot, of prescribed quantities */
-    zd_row_space space;     /* factors of the first `positions` rows */
+    zd_row_space space;     /* factors of the first `positions` rows; if is_square, its A and order are those of zd_lu_factor() */
+    int is_square;          /* true if they are as many as velocities, and far from singular */
+    double pivot;           /* the smallest pivot relative to the largest; 0 where they do not determine the positions */
     double *right, *y;      /* (rows,), (nv,): right-hand side, and its solution in scaled velocities */
     double *components, *jacobian;      /* (components,), (components, nv): values or biases of measures, and derivatives */
     double *scratch;        /* work array of measures */
@@ -27,11 +29,9 @@ typedef struct zd_prescribed_rows {
 zd_prescribed_rows zd_prescribed_rows_create(zd_arena *arena, const zd_prescribed_motion *motion);
 /* Moves to (t, p), and evaluates and factors the rows there. */
 int zd_prescribed_rows_factor(zd_prescribed_rows *self, double t, const double *p);
-/* The smallest pivot of the rows relative to the largest; 0 where they do not determine the positions. */
-double zd_prescribed_rows_pivot(const zd_prescribed_rows *self);
 /* Evaluates the biases at velocities v. */
 int zd_prescribed_rows_move(zd_prescribed_rows *self, const double *v);
-/* x (nv,) <- solution of rows x = right, which is divided by the lengths. */
+/* x (nv,) <- solution of rows x = right, which is scaled as the rows. */
 void zd_prescribed_rows_solve(zd_prescribed_rows *self, double *x);
 /* The largest residual, in scaled velocities, of the redundant ones among the first `rows` rows, and of nonholonomic constraints. */
 double zd_prescribed_rows_residual(const zd_prescribed_rows *self, int rows);

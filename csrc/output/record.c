@@ -67,19 +67,11 @@ zd_recorder zd_recorder_create(zd_arena *arena, const zd_settings *settings, zd_
 /* Requires the accelerations and multipliers at the point. */
 static int record_outputs(const zd_recorder *self, zd_record *record, int64_t sample)
 {
-    const zd_measures *measures = self->measured->measures;
     const zd_point *point = self->motion->point;
     zd_rank_find_multipliers(point);
     zd_measured out = {.value = record->outputs + sample * self->width, .is_least = !zd_rank_is_deficient(point)};
-    int status = ZD_DONE;
-    for (int i = 0; i < self->outputs->count && !status; i++) {
-        const int measure = self->outputs->measure[i];
-        status = measures->evaluate(self->measured->data, point->terms.inputs, measure, point->t, point->p, point->v, point->vdot,
-                                    point->lambda, &out, self->scratch);
-        out.value += measures->measure[measure].size;
-        out.is_same_state = 1;
-    }
-    return status;
+    return zd_measure_states(self->measured, point->terms.inputs, self->outputs->count, self->outputs->measure, 1, &point->t, point->p,
+                             point->v, point->vdot, point->lambda, &out, self->scratch);
 }
 
 int zd_recorder_add(zd_recorder *self, zd_record *record)

@@ -1,5 +1,6 @@
 #include "point.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "../linalg/small.h"
@@ -10,6 +11,16 @@ zd_row_of_C zd_row_in(const zd_point *point, const double *C, int k)
 {
     const int n = point->system->nv;
     return point->layout ? zd_packed_row(point->layout, C, k) : (zd_row_of_C){C + k * n, n, NULL};
+}
+
+double zd_point_scaled_row(const zd_point *point, int k, const double *scale, double *to)
+{
+    const int nv = point->system->nv;
+    const zd_row_of_C row = zd_point_row(point, k);
+    zd_row_expand(&row, nv, to);
+    if (zd_largest(nv, to) <= point->rounding[k]) memset(to, 0, (size_t)nv * sizeof *to);
+    for (int i = 0; i < nv; i++) to[i] *= scale[i];
+    return sqrt(zd_dot(nv, to, to));
 }
 
 zd_row_of_C zd_counted_row(const zd_point *point, int k)

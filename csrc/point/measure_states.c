@@ -11,9 +11,9 @@ int zd_measure_states(const zd_system *system, const double *inputs, int count, 
     for (int64_t i = 0; i < states && !status; i++) {
         for (int j = 0; j < count && !status; j++) {
             const int64_t size = all->measure[measures[j]].size;
-            at.is_same_state = j > 0;
             status = all->evaluate(system->data, inputs ? inputs + i * k : NULL, measures[j], t[i], p + i * nq, v + i * nv,
                                    vdot ? vdot + i * nv : NULL, multipliers ? multipliers + i * m : NULL, &at, scratch);
+            at.is_same_state = 1;
             if (at.value) at.value += size;
             if (at.rate) at.rate += size;
             if (at.jacobian) at.jacobian += size * nv;
@@ -22,6 +22,7 @@ int zd_measure_states(const zd_system *system, const double *inputs, int count, 
             if (at.redundant) at.redundant += size * m;
         }
         if (at.efforts) at.efforts++;
+        at.is_same_state = 0;
     }
     return status;
 }

@@ -174,6 +174,8 @@ double zd_packed_row_residual(const zd_layout *layout, const double *C, int k, c
 double zd_packed_residual(const zd_layout *layout, const double *C, int rows, const double *rhs, const double *x, const double *weight,
                           double *residual, double *square);
 void zd_row_expand(const zd_row_of_C *row, int n, double *x);       /* x (n,) <- the row with its zeros */
+/* to (nv,) <- row k of C times scale (nv,), zero where it is the rounding error of terms that cancel. Returns its norm. */
+double zd_point_scaled_row(const zd_point *point, int k, const double *scale, double *to);
 void zd_add_C(const zd_point *point, double weight, double *C);     /* C (m, nv) <- C + weight times the point's */
 
 int zd_point_need_times_C(zd_point *point);         /* evaluates the entries of C, or prepares the system's own products with C */

@@ -61,6 +61,7 @@ int zd_residuals_along(const zd_system *system, const double *inputs, int parts,
 
 /* A motion at many states, in the system's coordinates. */
 typedef struct zd_given_motion {
+    const zd_system *system;
     int64_t states;
     const double *t, *p, *v, *vdot;     /* (states,), (states, nq), (states, nv), (states, nv) */
     const double *force;    /* (states, nv): f - d; NULL: the system's */
@@ -83,7 +84,7 @@ typedef struct zd_needed_efforts {
 /* Efforts that drive a given motion, and its multipliers. More efforts than freedoms have the least sum of squares, in units of their
  * weights; with fewer the residual is the least. Returns ZD_DONE, ZD_BAD_START if the motion violates constraints, ZD_NOT_DEFINITE if a
  * motion that they allow has no mass, ZD_NO_MEMORY or ZD_CALLBACK. */
-int zd_inverse_dynamics(const zd_system *system, const zd_given_motion *given, zd_needed_efforts *to);
+int zd_inverse_dynamics(const zd_given_motion *given, zd_needed_efforts *to);
 
 /* ---- motion by prescribed quantities, without forces and masses ---- */
 

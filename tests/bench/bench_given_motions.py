@@ -46,7 +46,12 @@ def motions():
     yield "four-bar, crank", zd.models.four_bar(), turn
     yield "slider-crank, crank", zd.models.slider_crank(), turn
     yield "Andrews' mechanism, crank", zd.models.andrews(), {"K1.angle": lambda t: -0.0617138900142764496 + 0.5 * np.sin(3 * t)}
-    yield "chain of 7 links, all angles", chain(7), {f"pin {i}.angle": (lambda t, i=i: 0.3 * np.sin(3 * t + i)) for i in range(7)}
+    for links in (2, 3, 7):
+        yield f"chain of {links} links, all angles", chain(links), {
+            f"pin {i}.angle": (lambda t, i=i: 0.3 * np.sin(3 * t + i)) for i in range(links)}
+    yield "Watt's linkage, left angle", undriven(zd.models.watt), swings(["left.angle"], 0.1)
+    yield "gyroscope, 3 angles", zd.models.gyroscope(), swings(["pivot.angle", "trunnion.angle", "axle.angle"], 0.1)
+    yield "Bennett's linkage, an angle", undriven(zd.models.bennett), swings(["B.angle"], 0.1)
     yield "delta robot, 3 shoulders", undriven(zd.models.delta_robot), swings([f"shoulder {i}.angle" for i in range(3)], 0.3)
     yield "Stewart platform, 6 strokes", undriven(zd.models.stewart_platform), swings(
         [f"stroke {i}.displacement" for i in range(6)], 0.05)

@@ -32,7 +32,7 @@
 #include "terms.h"
 
 /* Changes with any declaration here and in these headers that compiled code depends on. */
-enum { ZD_INTERFACE_VERSION = 5 };
+enum { ZD_INTERFACE_VERSION = 6 };
 
 /* ---- measures, inputs, groups ---- */
 
@@ -59,7 +59,7 @@ typedef struct zd_measured {    /* memory for the results; NULL: not requested *
     double *least;          /* (m,) multipliers of the least reactions, alone: for a measure of accelerations */
     double *redundant;      /* (size, m) changes by redundant multipliers, a column each, relative to the norm of those of all wrenches */
     int is_least;           /* 1: the multipliers given are taken for those of the least reactions */
-    int is_same_state;      /* 1: all but measure and results as in the previous call, so that values in scratch may be reused */
+    int is_same_state;      /* 1: all but measure and results as in the previous call, so that values in scratch may be reused; 2: t and p */
     const zd_efforts *efforts;      /* efforts that act at the state, for a measure of accelerations; NULL: none */
 } zd_measured;
 

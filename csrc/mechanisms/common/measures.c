@@ -10,7 +10,8 @@
 static void place_and_move(const zd_measuring *self, int is_same_state, int needs_twists, const zd_measured_state *at)
 {
     const zd_readings *of = &self->readings;
-    if (!is_same_state) *self->is_placed = *self->is_moving = *self->is_least = 0;
+    if (!is_same_state) *self->is_placed = 0;
+    if (is_same_state != 1) *self->is_moving = *self->is_least = 0;
     if (*self->is_placed == 0) self->numerics->place(of->mechanism, of->frame, at->p);
     *self->is_placed = 1;
     if (*self->is_moving != 0 || !needs_twists) return;

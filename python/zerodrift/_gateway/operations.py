@@ -81,8 +81,8 @@ def needed_efforts(core: CoreSystem, states: Sequence[np.ndarray], rows: np.ndar
     *moving, forces, along, weights, scales, inverse = (doubles(each, each.size) for each in map(
         np.ascontiguousarray, (*states, rows if force is None else force, rows, weight, scale, 1 / scale)))
     motion = ffi.new("zd_given_motion *",
-                     (k, *moving, ffi.NULL if force is None else forces, j, along, weights, length, scales, inverse))
-    status = lib.zd_inverse_dynamics(core.c, motion, to)
+                     (core.c, k, *moving, ffi.NULL if force is None else forces, j, along, weights, length, scales, inverse))
+    status = lib.zd_inverse_dynamics(motion, to)
     if status in (lib.ZD_BAD_START, lib.ZD_NOT_DEFINITE):
         return to.sample
     if status:

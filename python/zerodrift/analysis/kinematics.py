@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from ..systems.base import BaseSystem, core_of, system_of
 from .kinematic_result import Kinematics
 from .names import dominant
 from .prescribed import Prescribed, prescribed
-from .quantities import find, rows_of, values_of
+from .quantities import is_velocity, rates_of, values_of
 from .retraction import near_to, prescribing
 from .state import State, scales, state
 from .tangent import null_space
@@ -85,12 +85,10 @@ def kinematics(system: SystemLike, motion: Motions, t: ArrayLike | None = None, 
     wanted = {name: prescribed(f"motion[{name!r}]", value, times, speed) for name, value in given.items()}
     times = _times(wanted, times, speed)
     p = near_to(system, near, times[0])
-    at = state(system, times[0], p, np.zeros(system.nv))
-    _check_quantities(system, at, wanted)
-    _check_determined(system, at, wanted)
-    orders = ("value", "rate", "second") if t is not None or speed is not None else ("value",)
-    value, *rates = (np.hstack([getattr(each, order) for each in wanted.values()]) for order in orders)
-    tracked = prescribing(system, p, wanted).track(p, np.column_stack([value, times]), *rates)
+    _check_quantities(state(system, times[0], p, np.zeros(system.nv)), wanted)
+    value, *rates = ([getattr(each, order) for each in wanted.values()] for order in ("value", "rate", "second"))
+    rates = [] if t is None and speed is None else [np.hstack(each) for each in rates]
+    tracked = prescribing(system, p, wanted).track(p, np.hstack([*value, times[:, None]]), *rates)
     _report(system, tracked, times, wanted)
     _warn_of_errors(wanted)
     return Kinematics(system, times, *tracked[:3], {name: each.error for name, each in wanted.items()}, tuple(wanted))
@@ -124,27 +122,24 @@ def _times(wanted: Mapping[str, Prescribed], times: np.ndarray | None, speed: fl
     return times
 
 
-def _check_quantities(system: BaseSystem, at: State, wanted: Mapping[str, Prescribed]) -> None:
-    for name, each in wanted.items():
-        found = find(at, name, "motion")
-        if found.is_velocity:
-            raise WrongValue(f"motion must prescribe quantities of positions, and {name!r} is one of velocities", "wrong-measure")
-        if each.value.shape[1] != len(found.value):
-            raise WrongValue(f"motion[{name!r}] must have {len(found.value)} components, not {each.value.shape[1]}", "shape")
-
-
-def _check_determined(system: BaseSystem, at: State, names: Iterable[str]) -> None:
-    """Refuses quantities that do not determine the positions.
+def _check_quantities(at: State, wanted: Mapping[str, Prescribed]) -> None:
+    """Refuses quantities of velocities, those of other sizes, and those that do not determine the positions.
 
     Raises
     ------
     SingularSystem
         Naming the coordinate that stays free.
     """
-    free = null_space(np.vstack([at.holonomic, rows_of(at, names)]), scales(system, at.p).v)
+    rows = rates_of(at.system, tuple(wanted), "motion", np.array([at.t]), at.p[None], parts=("row",))["row"][0]
+    for name, each in wanted.items():
+        if is_velocity(at.system, name):
+            raise WrongValue(f"motion must prescribe quantities of positions, and {name!r} is one of velocities", "wrong-measure")
+        if each.value.shape[1] != (size := at.system._watching.size(name)):
+            raise WrongValue(f"motion[{name!r}] must have {size} components, not {each.value.shape[1]}", "shape")
+    free = null_space(np.vstack([at.holonomic, rows]), scales(at.system, at.p).v)
     if free.shape[1]:
         named = ", ".join(sorted({dominant(at, at.A @ column) for column in free.T}))
-        raise SingularSystem(f"the prescribed quantities must determine all positions of {system.name}, and leave "
+        raise SingularSystem(f"the prescribed quantities must determine all positions of {at.system.name}, and leave "
                              f"{free.shape[1]} free: {named}; prescribe more, or begin beside a singular position with near=")
 
 
@@ -156,9 +151,8 @@ def _report(system: BaseSystem, tracked: Tracked, times: np.ndarray, wanted: Map
     InconsistentStart
         If quantities or their rates contradict each other or the constraints.
     """
-    beyond = np.isnan(tracked.p).any(axis=1)
     if (i := tracked.contradicting) >= 0:
-        if beyond[i]:
+        if np.isnan(tracked.p[i, 0]):
             raise InconsistentStart(f"the prescribed quantities must agree with each other and with the constraints of "
                                     f"{system.name}: at t = {times[i]:g} {', '.join(wanted)} differ by "
                                     f"{tracked.contradiction:.3g} of their changes from what the others determine")
@@ -168,13 +162,14 @@ def _report(system: BaseSystem, tracked: Tracked, times: np.ndarray, wanted: Map
         ends = np.cumsum([each.value.shape[1] for each in wanted.values()])
         limit = ", ".join(f"{name} = {np.array2string(value, precision=9)[1:-1]}"
                           for name, value in zip(wanted, np.split(tracked.reached, ends[:-1]), strict=True))
-        warnings.warn(f"the motion of {system.name} comes to a dead point, {limit}: {beyond.sum()} samples beyond it are NaN",
+        beyond = np.isnan(tracked.p[:, 0]).sum()
+        warnings.warn(f"the motion of {system.name} comes to a dead point, {limit}: {beyond} samples beyond it are NaN",
                       LockedWarning, stacklevel=3)
 
 
 def _warn_of_errors(wanted: Mapping[str, Prescribed]) -> None:
     for name, each in wanted.items():
-        if each.error > INACCURATE * np.abs(each.second).max(initial=0.0) + each.rounding:
+        if each.error and each.error > INACCURATE * np.abs(each.second).max(initial=0.0) + each.rounding:
             warnings.warn(f"the samples of {name} must be closer for accurate accelerations: these differ by up to "
                           f"{each.error:.3g} between a quintic spline and polynomials; a callable or an expression is exact",
                           AccuracyWarning, stacklevel=3)

@@ -81,11 +81,11 @@ def _parts(name: str, function: Callable[[Any], Any], t: Any) -> np.ndarray:
     except Exception as error:
         _check.tell(error, f"in {name}, called at t = {t:g}: it must be written in NumPy's functions")
         raise
-    jets = [each if isinstance(each, autodiff.Jet) else autodiff.Jet(_check.number(name, each)) for each in found]
-    return np.array([[np.broadcast_to(getattr(each, part), np.shape(t)) for each in jets] for part in PARTS], dtype=float)
-
-
-PARTS = ("value", "first", "second")
+    parts = np.empty((3, len(found), *np.shape(t)))
+    for j, each in enumerate(found):
+        jet = each if isinstance(each, autodiff.Jet) else autodiff.Jet(_check.number(name, each))
+        parts[0, j], parts[1, j], parts[2, j] = jet.value, jet.first, jet.second
+    return parts
 
 
 def _of_expression(name: str, given: Any) -> Callable[[Any], Any]:

@@ -84,13 +84,15 @@ def find(at: State, name: str, what: str) -> Found:
     ValueError
         If nothing has that name, or it depends on accelerations or reactions.
     """
-    system = at.system
-    place = _place(system, name, what)
-    found = rates_of(system, (name,), what, np.array([float(at.t)]), at.p[None], at.v[None])
-    is_velocity = name in _names(system.velocities) if place is None else (
+    found = rates_of(at.system, (name,), what, np.array([at.t]), at.p[None], at.v[None])
+    return Found(*(found[part][0] for part in PARTS), is_velocity(at.system, name))
+
+
+def is_velocity(system: BaseSystem, name: str) -> bool:
+    """True if a quantity depends on velocities."""
+    place = system._watching.find(name)
+    return name in _names(system.velocities) if place is None else (
         system._watching.core.measure_depends(place.number) == "velocities")
-    value, rate, row, bias = (found[part][0] for part in PARTS)
-    return Found(value, rate, row, bias, is_velocity)
 
 
 def rows_of(at: State, names: Iterable[str]) -> np.ndarray:
@@ -138,7 +140,7 @@ def _of_variable(system: BaseSystem, name: str, what: str, t: np.ndarray, p: np.
     A = core.evaluate_states(("A",), t, p, v).get("A", np.broadcast_to(identity, (k, *identity.shape)))
     i, pdot = coordinates.index(name), np.einsum("kij,kj->ki", A, v)
     for n in range(k if "bias" in parts else 0):
-        if not np.array_equal(A[n], identity):
+        if v[n].any() and not np.array_equal(A[n], identity):
             size = float(np.abs(pdot[n] / scales(system, p[n]).p).max(initial=0.0))
             def row(h: float, at_t: float = float(t[n]), n: int = n) -> np.ndarray:
                 return state(system, at_t, p[n] + h * pdot[n], v[n]).A[[i]] @ v[n]

@@ -140,18 +140,19 @@ class Jet:
         return f"Jet({self.value}, {self.gradient}, {self.first}, {self.second})"
 
 
-def _unary(name: str, phi: Callable[[float], tuple[float, float, float]]) -> Callable[[Jet], Jet]:
+def _unary(name: str, phi: Callable[[float], float], slopes: Callable[[Any, Any, Any], tuple[Any, Any]]) -> Callable[[Jet], Jet]:
     """The method of a function. Where Python raises an error, the value is NumPy's, and there are no derivatives."""
-    def parts(x: float) -> tuple[float, float, float]:
-        try:
-            return phi(x)
-        except (ValueError, ZeroDivisionError, OverflowError):
-            with np.errstate(all="ignore"):
-                return float(getattr(np, name)(x)), math.nan, math.nan
+    of_arrays = getattr(np, name)
 
     def method(self: Jet) -> Jet:
         x = self.value
-        return self._chain(*(np.transpose([parts(each) for each in x.tolist()]) if isinstance(x, np.ndarray) else parts(x)))
+        if isinstance(x, np.ndarray):
+            return self._chain(y := of_arrays(x), *slopes(x, y, np))
+        try:
+            return self._chain(y := phi(x), *slopes(x, y, math))
+        except (ValueError, ZeroDivisionError, OverflowError):
+            with np.errstate(all="ignore"):
+                return self._chain(float(of_arrays(x)), math.nan, math.nan)
     return method
 
 
@@ -164,50 +165,34 @@ def _power(x: float, n: float) -> float:
     return math.nan if isinstance(y, complex) else y
 
 
-def _sqrt(x: float) -> tuple[float, float, float]:
-    r = math.sqrt(x)
-    return r, 0.5 / r, -0.25 / (r * x)
-
-
-def _tan(x: float) -> tuple[float, float, float]:
-    t = math.tan(x)
-    return t, 1 + t * t, 2 * t * (1 + t * t)
-
-
-def _tanh(x: float) -> tuple[float, float, float]:
-    t = math.tanh(x)
-    return t, 1 - t * t, -2 * t * (1 - t * t)
-
-
-# phi, phi', phi'' by the name NumPy calls
-FUNCTIONS: dict[str, Callable[[float], tuple[float, float, float]]] = {
-    "sin": lambda x: (math.sin(x), math.cos(x), -math.sin(x)),
-    "cos": lambda x: (math.cos(x), -math.sin(x), -math.cos(x)),
-    "tan": _tan,
-    "arcsin": lambda x: (math.asin(x), (1 - x * x) ** -0.5, x * (1 - x * x) ** -1.5),
-    "arccos": lambda x: (math.acos(x), -((1 - x * x) ** -0.5), -x * (1 - x * x) ** -1.5),
-    "arctan": lambda x: (math.atan(x), 1 / (1 + x * x), -2 * x / (1 + x * x) ** 2),
-    "sinh": lambda x: (math.sinh(x), math.cosh(x), math.sinh(x)),
-    "cosh": lambda x: (math.cosh(x), math.sinh(x), math.cosh(x)),
-    "tanh": _tanh,
-    "arcsinh": lambda x: (math.asinh(x), (1 + x * x) ** -0.5, -x * (1 + x * x) ** -1.5),
-    "arccosh": lambda x: (math.acosh(x), (x * x - 1) ** -0.5, -x * (x * x - 1) ** -1.5),
-    "arctanh": lambda x: (math.atanh(x), 1 / (1 - x * x), 2 * x / (1 - x * x) ** 2),
-    "exp": lambda x: (math.exp(x), math.exp(x), math.exp(x)),
-    "expm1": lambda x: (math.expm1(x), math.exp(x), math.exp(x)),
-    "log": lambda x: (math.log(x), 1 / x, -1 / (x * x)),
-    "log1p": lambda x: (math.log1p(x), 1 / (1 + x), -1 / (1 + x) ** 2),
-    "log2": lambda x: (math.log2(x), 1 / (x * math.log(2)), -1 / (x * x * math.log(2))),
-    "log10": lambda x: (math.log10(x), 1 / (x * math.log(10)), -1 / (x * x * math.log(10))),
-    "sqrt": _sqrt,
-    "cbrt": lambda x: (math.cbrt(x), math.cbrt(x) / (3 * x), -2 * math.cbrt(x) / (9 * x * x)),
-    "deg2rad": lambda x: (math.radians(x), math.pi / 180, 0.0),
-    "radians": lambda x: (math.radians(x), math.pi / 180, 0.0),
-    "rad2deg": lambda x: (math.degrees(x), 180 / math.pi, 0.0),
-    "degrees": lambda x: (math.degrees(x), 180 / math.pi, 0.0),
+# phi, and phi', phi'' from x, phi(x) and the functions of math or NumPy, by the name NumPy calls
+FUNCTIONS: dict[str, tuple[Callable[[float], float], Callable[[Any, Any, Any], tuple[Any, Any]]]] = {
+    "sin": (math.sin, lambda x, y, of: (of.cos(x), -y)),
+    "cos": (math.cos, lambda x, y, of: (-of.sin(x), -y)),
+    "tan": (math.tan, lambda x, y, of: (1 + y * y, 2 * y * (1 + y * y))),
+    "arcsin": (math.asin, lambda x, y, of: ((1 - x * x) ** -0.5, x * (1 - x * x) ** -1.5)),
+    "arccos": (math.acos, lambda x, y, of: (-((1 - x * x) ** -0.5), -x * (1 - x * x) ** -1.5)),
+    "arctan": (math.atan, lambda x, y, of: (1 / (1 + x * x), -2 * x / (1 + x * x) ** 2)),
+    "sinh": (math.sinh, lambda x, y, of: (of.cosh(x), y)),
+    "cosh": (math.cosh, lambda x, y, of: (of.sinh(x), y)),
+    "tanh": (math.tanh, lambda x, y, of: (1 - y * y, -2 * y * (1 - y * y))),
+    "arcsinh": (math.asinh, lambda x, y, of: ((1 + x * x) ** -0.5, -x * (1 + x * x) ** -1.5)),
+    "arccosh": (math.acosh, lambda x, y, of: ((x * x - 1) ** -0.5, -x * (x * x - 1) ** -1.5)),
+    "arctanh": (math.atanh, lambda x, y, of: (1 / (1 - x * x), 2 * x / (1 - x * x) ** 2)),
+    "exp": (math.exp, lambda x, y, of: (y, y)),
+    "expm1": (math.expm1, lambda x, y, of: (of.exp(x), of.exp(x))),
+    "log": (math.log, lambda x, y, of: (1 / x, -1 / (x * x))),
+    "log1p": (math.log1p, lambda x, y, of: (1 / (1 + x), -1 / (1 + x) ** 2)),
+    "log2": (math.log2, lambda x, y, of: (1 / (x * math.log(2)), -1 / (x * x * math.log(2)))),
+    "log10": (math.log10, lambda x, y, of: (1 / (x * math.log(10)), -1 / (x * x * math.log(10)))),
+    "sqrt": (math.sqrt, lambda x, y, of: (0.5 / y, -0.25 / (y * x))),
+    "cbrt": (math.cbrt, lambda x, y, of: (y / (3 * x), -2 * y / (9 * x * x))),
+    "radians": (math.radians, lambda x, y, of: (math.pi / 180, 0.0)),
+    "degrees": (math.degrees, lambda x, y, of: (180 / math.pi, 0.0)),
 }
+FUNCTIONS |= {"deg2rad": FUNCTIONS["radians"], "rad2deg": FUNCTIONS["degrees"]}
 for _name, _phi in FUNCTIONS.items():
-    setattr(Jet, _name, _unary(_name, _phi))
+    setattr(Jet, _name, _unary(_name, *_phi))
 
 
 def value(x: Any) -> Any:
