@@ -41,8 +41,10 @@ def declarations() -> str:
                      "plane/assembly/varied.h", "space/elements.h", "space/tables.h", "space_tree/tree.h")
     of_systems = ("terms.h", "structure.h", "closed_form.h", "derivatives.h", "system.h")
     of_core = ("tables.h", "settings.h", "run.h", "many_runs.h", "states.h")
-    names = (*(f"include/zerodrift/{name}" for name in of_systems), *(f"mechanisms/{name}" for name in of_mechanisms),
-             *(f"zerodrift/{name}" for name in of_core), "block/block.h", "python/interface.h")
+    of_laws = ("program.h", "elimination.h")
+    names = (*(f"include/zerodrift/{name}" for name in of_systems), *(f"laws/{name}" for name in of_laws),
+             *(f"mechanisms/{name}" for name in of_mechanisms), *(f"zerodrift/{name}" for name in of_core),
+             "block/block.h", "python/interface.h")
     headers = "".join((ROOT / "csrc" / name).read_text(encoding="utf-8") for name in names)
     return preprocessed(re.sub(r"^#(include|pragma|define ZD_WRITTEN).*$", "", headers, flags=re.MULTILINE)).replace(
         "ZD_WRITTEN_IN_PYTHON", 'extern "Python"')

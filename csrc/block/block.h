@@ -17,7 +17,7 @@
  *     terms ...       those of zd_quantity_term, zd_relation, zd_generalized_force and zd_output_spec of mechanisms/common/elements.h
  *     laws            user functions: first instruction, number of instructions, number of marker quantities x, number of results:
  *                     1 for a generalized force; for a relation with k terms the k + 3 that zd_law describes
- *     instructions    code, and three operands: see enum zd_block_code
+ *     instructions    code, and three operands: enum zd_code of laws/program.h; instruction i writes value i
  *     splines         first knot, number of knots: at least 2, abscissas increasing
  *     knots           abscissa, and coefficients of powers 3, 2, 1, 0 of the distance from it, valid to the next knot
  *     start           p, then v: one entry each; none if the start is not given
@@ -42,6 +42,7 @@
 
 #include <stddef.h>
 
+#include "../laws/program.h"
 #include "../zerodrift.h"
 
 enum { ZD_BLOCK_VERSION = 2 };
@@ -53,26 +54,6 @@ enum zd_block_section {
     ZD_BLOCK_START, ZD_BLOCK_OUTPUTS, ZD_BLOCK_INPUTS, ZD_BLOCK_SETTINGS, ZD_BLOCK_METHODS, ZD_BLOCK_NAMES,
     ZD_BLOCK_PARAMETERS, ZD_BLOCK_EFFECTS, ZD_BLOCK_PRODUCTS, ZD_BLOCK_TEXTS,
     ZD_BLOCK_SECTIONS
-};
-
-/* Codes of instructions. Instruction i of a law writes value i; operands a, b, c are numbers of earlier values, except where noted. */
-enum zd_block_code {
-    ZD_CODE_NUMBER,         /* a itself */
-    ZD_CODE_TIME,           /* t */
-    ZD_CODE_X,              /* x of marker quantity a */
-    ZD_CODE_XDOT,           /* its rate */
-    ZD_CODE_RESULT,         /* result number a <- value b */
-    ZD_CODE_PLUS, ZD_CODE_MINUS, ZD_CODE_TIMES, ZD_CODE_OVER, ZD_CODE_NEGATIVE,
-    ZD_CODE_LESS, ZD_CODE_LESS_EQUAL, ZD_CODE_GREATER, ZD_CODE_GREATER_EQUAL, ZD_CODE_EQUAL, ZD_CODE_UNEQUAL,     /* 1 if true, else 0 */
-    ZD_CODE_AND, ZD_CODE_OR, ZD_CODE_NOT,
-    ZD_CODE_CHOOSE,         /* b if a is not 0, otherwise c */
-    ZD_CODE_INPUT,          /* number b (0, 1 or 2) of the place of input a, see zd_input_slot */
-    ZD_CODE_SPLINE,         /* spline a (its number) at value b, derivative of order c (a number: 0, 1 or 2); fails beyond its ends */
-    ZD_CODE_POWER, ZD_CODE_ROOT, ZD_CODE_SIN, ZD_CODE_COS, ZD_CODE_TAN, ZD_CODE_ASIN, ZD_CODE_ACOS, ZD_CODE_ATAN, ZD_CODE_ATAN2,
-    ZD_CODE_SINH, ZD_CODE_COSH, ZD_CODE_TANH, ZD_CODE_ASINH, ZD_CODE_ACOSH, ZD_CODE_ATANH, ZD_CODE_EXP, ZD_CODE_LOG, ZD_CODE_ABS,
-    ZD_CODE_FLOOR, ZD_CODE_CEILING, ZD_CODE_ERF, ZD_CODE_ERFC, ZD_CODE_EXPM1, ZD_CODE_HYPOT, ZD_CODE_LOG1P, ZD_CODE_LOG2,
-    ZD_CODE_LOG10, ZD_CODE_GAMMA, ZD_CODE_LOGGAMMA,
-    ZD_CODES
 };
 
 /* Numbers that are set between steps. */

@@ -2,25 +2,10 @@
  * the compiled function of the same expression. */
 #include "made.h"
 
-#include <math.h>
-
-#include "../include/zerodrift/sines.h"
-
-#if defined(__GLIBC__) && defined(__x86_64__) && defined(__PIC__) && !defined(__PIE__)
-/* In shared libraries: the functions as every glibc has them since 2012, of the same bits, so that wheels do not require a newer one. */
-__asm__(".symver exp, exp@GLIBC_2.2.5\n.symver log, log@GLIBC_2.2.5\n.symver log2, log2@GLIBC_2.2.5\n"
-        ".symver pow, pow@GLIBC_2.2.5\n.symver hypot, hypot@GLIBC_2.2.5\n.symver lgamma, lgamma@GLIBC_2.2.5");
-#endif
-
-typedef struct instruction {
-    enum zd_block_code code;
-    int a, b, c;
-} instruction;
-
 /* ---- checks ---- */
 
 /* Number of operands that are values; ZD_CODE_NUMBER to ZD_CODE_RESULT and ZD_CODE_SPLINE are treated individually. */
-static int operands_of(enum zd_block_code code)
+static int operands_of(enum zd_code code)
 {
     switch (code) {
     case ZD_CODE_CHOOSE: return 3;
@@ -35,7 +20,7 @@ static int operands_of(enum zd_block_code code)
 static int instruction_is_right(const zd_block_layout *layout, const double *word, int number, double terms, double results)
 {
     if (!zd_block_is_integer(word[0], 0, ZD_CODES)) return 0;
-    const enum zd_block_code code = (enum zd_block_code)(int)word[0];
+    const enum zd_code code = (enum zd_code)(int)word[0];
     switch (code) {
     case ZD_CODE_NUMBER: case ZD_CODE_TIME: return 1;
     case ZD_CODE_X: case ZD_CODE_XDOT: return zd_block_is_integer(word[1], 0, terms);
@@ -110,63 +95,6 @@ int zd_block_law_suits(const zd_block_layout *layout, int law, int terms, int re
 
 /* ---- evaluation ---- */
 
-static double function_value(enum zd_block_code code, double a, double b)
-{
-    switch (code) {
-    case ZD_CODE_POWER: return pow(a, b);
-    case ZD_CODE_ROOT: return sqrt(a);
-    case ZD_CODE_SIN: return zd_sin(a);
-    case ZD_CODE_COS: return zd_cos(a);
-    case ZD_CODE_TAN: return tan(a);
-    case ZD_CODE_ASIN: return asin(a);
-    case ZD_CODE_ACOS: return acos(a);
-    case ZD_CODE_ATAN: return atan(a);
-    case ZD_CODE_ATAN2: return atan2(a, b);
-    case ZD_CODE_SINH: return sinh(a);
-    case ZD_CODE_COSH: return cosh(a);
-    case ZD_CODE_TANH: return tanh(a);
-    case ZD_CODE_ASINH: return asinh(a);
-    case ZD_CODE_ACOSH: return acosh(a);
-    case ZD_CODE_ATANH: return atanh(a);
-    case ZD_CODE_EXP: return exp(a);
-    case ZD_CODE_LOG: return log(a);
-    case ZD_CODE_ABS: return fabs(a);
-    case ZD_CODE_FLOOR: return floor(a);
-    case ZD_CODE_CEILING: return ceil(a);
-    case ZD_CODE_ERF: return erf(a);
-    case ZD_CODE_ERFC: return erfc(a);
-    case ZD_CODE_EXPM1: return expm1(a);
-    case ZD_CODE_HYPOT: return hypot(a, b);
-    case ZD_CODE_LOG1P: return log1p(a);
-    case ZD_CODE_LOG2: return log2(a);
-    case ZD_CODE_LOG10: return log10(a);
-    case ZD_CODE_GAMMA: return tgamma(a);
-    default: return lgamma(a);
-    }
-}
-
-static double operation_value(enum zd_block_code code, double a, double b, double c)
-{
-    switch (code) {
-    case ZD_CODE_PLUS: return a + b;
-    case ZD_CODE_MINUS: return a - b;
-    case ZD_CODE_TIMES: return a * b;
-    case ZD_CODE_OVER: return a / b;
-    case ZD_CODE_NEGATIVE: return -a;
-    case ZD_CODE_LESS: return a < b;
-    case ZD_CODE_LESS_EQUAL: return a <= b;
-    case ZD_CODE_GREATER: return a > b;
-    case ZD_CODE_GREATER_EQUAL: return a >= b;
-    case ZD_CODE_EQUAL: return a == b;
-    case ZD_CODE_UNEQUAL: return a != b;
-    case ZD_CODE_AND: return a != 0 && b != 0;
-    case ZD_CODE_OR: return a != 0 || b != 0;
-    case ZD_CODE_NOT: return a == 0;
-    case ZD_CODE_CHOOSE: return a != 0 ? b : c;
-    default: return function_value(code, a, b);
-    }
-}
-
 /* value <- derivative of order 0, 1 or 2 of a spline at x. Returns 0 beyond its ends, up to rounding. */
 static int spline_value(const zd_block_layout *layout, int spline, double x, int order, double *value)
 {
@@ -199,7 +127,7 @@ int zd_block_law(void *owner, int law, double t, const double *x, const double *
     const double *word = zd_block_entry(self->layout, ZD_BLOCK_INSTRUCTIONS, (int)of[0]);
     double *value = self->value;
     for (int i = 0; i < (int)of[1]; i++, word += 4) {
-        const enum zd_block_code code = (enum zd_block_code)(int)word[0];
+        const enum zd_code code = (enum zd_code)(int)word[0];
         switch (code) {
         case ZD_CODE_NUMBER: value[i] = word[1]; break;
         case ZD_CODE_TIME: value[i] = t; break;
@@ -212,7 +140,7 @@ int zd_block_law(void *owner, int law, double t, const double *x, const double *
             break;
         default: {
             const int operands = operands_of(code);
-            value[i] = operation_value(code, value[(int)word[1]], operands > 1 ? value[(int)word[2]] : 0,
+            value[i] = zd_operation(code, value[(int)word[1]], operands > 1 ? value[(int)word[2]] : 0,
                                        operands > 2 ? value[(int)word[3]] : 0);
         }
         }

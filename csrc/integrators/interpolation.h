@@ -55,8 +55,8 @@ ZD_INLINE int zd_prepare_dense_in_closed_form(const int n, const zd_tableau *T, 
         if (status) return ZD_CALLBACK;
         zd_add_stages(0, n, size, first + i, weight, h, self->k, y0, stage, NULL);
         zd_add_stages(n, n, size, first + i, weight, h, self->k, y0, stage, rates);
-        status = rate->closed_form->accelerate(rate->system->data, rate->inputs, &of_stage, stage, stage + n, NULL, NULL, rates + n, NULL,
-                                               NULL, NULL);
+        status = rate->closed_form->accelerate(rate->closed_form, rate->system->data, rate->inputs, &of_stage, stage, stage + n, NULL, NULL,
+                                               rates + n, NULL, NULL, NULL);
     }
     return status ? ZD_CALLBACK : ZD_DONE;
 }

@@ -99,8 +99,8 @@ ZD_INLINE int zd_runge_kutta_closed_form_step(const int n, const zd_tableau *T, 
         if (status) return status;
         zd_combine_pairs(0, n, 2 * n, i, T->a + i * T->stages, h, k, y, stage, NULL);
         zd_combine_pairs(n, n, 2 * n, i, T->a + i * T->stages, h, k, y, stage, rates);
-        status = rate->closed_form->accelerate(system->data, rate->inputs, &of_stage, stage, stage + n, NULL, NULL, rates + n, NULL,
-                                               NULL, NULL);
+        status = rate->closed_form->accelerate(rate->closed_form, system->data, rate->inputs, &of_stage, stage, stage + n, NULL, NULL,
+                                               rates + n, NULL, NULL, NULL);
     }
     if (status) return ZD_CALLBACK;
     zd_combine_pairs(0, n, 2 * n, T->stages, T->b, h, k, y, y, NULL);

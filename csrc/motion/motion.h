@@ -78,7 +78,8 @@ static inline int zd_rate_of_stage(const zd_rate *rate, double t, const double *
     const int nq = system->nq;
     if (!(system->provides & ZD_A))
         for (int i = 0; i < nq; i++) ydot[i] = y[nq + i];
-    int status = rate->closed_form->accelerate(system->data, rate->inputs, &t, y, y + nq, NULL, ydot, ydot + nq, NULL, NULL, NULL);
+    int status = rate->closed_form->accelerate(rate->closed_form, system->data, rate->inputs, &t, y, y + nq, NULL, ydot, ydot + nq, NULL,
+                                               NULL, NULL);
     return status ? ZD_CALLBACK : ZD_DONE;
 }
 

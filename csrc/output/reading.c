@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "../constraints/rank.h"
+#include "../laws/program.h"
 
 zd_reader zd_reader_create(zd_arena *arena, const zd_events *events, const zd_system *run, const double *inputs, const zd_point *point)
 {
@@ -90,6 +91,8 @@ int zd_read_event(const zd_reader *self, const void *data, int event, double t, 
     for (int k = 0; k < known->readings; k++)
         if (read(self, of, known->reading + k, t, p, v, &out, self->x + k)) return ZD_CALLBACK;
     if (known->is_called) return self->events->evaluate(self->events->data, event, t, p, v, self->x, value);
-    *value = (known->function ? known->function(self->x) : self->x[0]) - known->value;
+    *value = self->x[0];
+    if (known->function) zd_expressions_evaluate(known->function, self->x, 0, NULL, NULL, value);
+    *value -= known->value;
     return isfinite(*value) ? ZD_DONE : ZD_CALLBACK;
 }

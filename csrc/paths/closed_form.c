@@ -16,8 +16,9 @@ static int evaluate(zd_motion *motion, const double *added)
     zd_point *point = motion->point;
     zd_path *path = &motion->path;
     motion->statistics.evaluations++;
-    return zd_path_order(motion)->accelerate(motion->system.data, point->terms.inputs, &point->t, point->p, point->v, added, path->pdot,
-                                             point->vdot, point->lambda, motion->balance.input ? &path->power : NULL, path->pivots);
+    const zd_elimination *order = zd_path_order(motion);
+    return order->accelerate(order, motion->system.data, point->terms.inputs, &point->t, point->p, point->v, added, path->pdot, point->vdot,
+                             point->lambda, motion->balance.input ? &path->power : NULL, path->pivots);
 }
 
 int zd_closed_form_accelerate(zd_motion *motion, int (*evaluate_with)(zd_motion *motion, const double *added))
@@ -69,8 +70,8 @@ static int rate(void *context, double t, const double *y, double *ydot)
     motion->statistics.evaluations++;
     if (!point->terms.A) zd_copy_all(nv, y + nq, ydot);
     double *power = motion->balance.input ? ydot + motion->rate.size - 1 : NULL;
-    int status = zd_path_order(motion)->accelerate(point->system->data, point->terms.inputs, &t, y, y + nq, NULL, ydot, ydot + nq,
-                                                         NULL, power, NULL);
+    const zd_elimination *order = zd_path_order(motion);
+    int status = order->accelerate(order, point->system->data, point->terms.inputs, &t, y, y + nq, NULL, ydot, ydot + nq, NULL, power, NULL);
     return status ? ZD_CALLBACK : ZD_DONE;
 }
 
@@ -94,8 +95,9 @@ ZD_INLINE int call_finish(const zd_iterate *it)
     const zd_motion *motion = it->motion;
     const zd_point *point = motion->point;
     const zd_path *path = &motion->path;
-    return zd_path_order(motion)->finish(motion->system.data, point->terms.inputs, it->t, it->p, it->v, path->allowed, point->terms.Phi,
-                                         path->dp, path->pdot, point->vdot, point->lambda, NULL, path->pivots);
+    const zd_elimination *order = zd_path_order(motion);
+    return order->finish(order, motion->system.data, point->terms.inputs, it->t, it->p, it->v, path->allowed, point->terms.Phi, path->dp,
+                         path->pdot, point->vdot, point->lambda, NULL, path->pivots);
 }
 
 /* Projects p and v at t, and computes the point's acceleration there. p and v are the point's own, or the caller copies them there. */
@@ -117,8 +119,9 @@ static int call_correct(const zd_iterate *it)
     const zd_motion *motion = it->motion;
     const zd_point *point = motion->point;
     const zd_path *path = &motion->path;
-    const int status = zd_path_order(motion)->correct(motion->system.data, point->terms.inputs, it->t, it->p, it->v, point->terms.Phi,
-                                                      path->dp, path->dv);
+    const zd_elimination *order = zd_path_order(motion);
+    const int status = order->correct(order, motion->system.data, point->terms.inputs, it->t, it->p, it->v, point->terms.Phi, path->dp,
+                                      path->dv);
     return status || zd_point_violation(point) <= motion->target.tolerance ? status : ZD_NO_CONVERGENCE;
 }
 

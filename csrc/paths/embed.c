@@ -142,8 +142,9 @@ ZD_INLINE int call_embed(const zd_iterate *it)
     const embedding *self = (const embedding *)it;
     const zd_embedded *to = self->to;
     const zd_motion *motion = it->motion;
-    return zd_path_order(motion)->embed(motion->system.data, motion->rate.inputs, it->t, it->p, it->v, self->added, self->allowed,
-                                        motion->path.Phi, motion->path.dp, to->D, to->pdot, to->vdot, to->lambda, to->power, to->pivots);
+    const zd_elimination *order = zd_path_order(motion);
+    return order->embed(order, motion->system.data, motion->rate.inputs, it->t, it->p, it->v, self->added, self->allowed, motion->path.Phi,
+                        motion->path.dp, to->D, to->pdot, to->vdot, to->lambda, to->power, to->pivots);
 }
 
 int zd_embed_entries(zd_motion *motion, double t, int finds_p, const double *added, const zd_embedded *to)

@@ -6,6 +6,7 @@
 
 #include <string.h>
 
+#include "../laws/elimination.h"
 #include "interface.h"
 
 const char *const zd_fingerprint = ZD_FINGERPRINT;

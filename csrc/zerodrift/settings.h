@@ -21,7 +21,7 @@ typedef struct zd_argument {
 typedef struct zd_event {
     int readings;           /* number of arguments; 0: zd_events.evaluate() is called without any */
     const zd_argument *reading;  /* (readings,) the arguments x */
-    double (*function)(const double *x);    /* NULL: x[0] itself */
+    const struct zd_expressions *function;  /* Expression of x, in csrc/laws/program.h; NULL: x[0] itself */
     double value;           /* the event occurs when the function passes through this value */
     int is_called;          /* true: zd_events.evaluate() is called with x, and the two above are not used */
 } zd_event;

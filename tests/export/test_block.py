@@ -139,7 +139,7 @@ def test_recorded_outputs_are_those_of_simulate():
     core = BlockCore(zd.block(system, step=STEP, outputs=names))
     measures = [core.c.measures.measure[core.settings.outputs.measure[i]] for i in range(len(names))]
     assert [each.size for each in measures] == [1, 2, 2]
-    sol = zd.simulate(system, 10 * STEP, step=STEP, vector="baseline", outputs=names)
+    sol = zd.simulate(system, 10 * STEP, step=STEP, vector="baseline", closed_form=False, outputs=names)
     options = core.settings
     options.t1 = 10 * STEP
     record = _gateway.Record(core, 20, type("Width", (), {"width": 5}))

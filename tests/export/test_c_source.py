@@ -45,7 +45,7 @@ def test_a_crank_has_the_bits_of_simulate_and_allocates_before_its_steps(tmp_pat
     folder = zd.c_source(zd.models.slider_crank(), tmp_path / "crank", step=1e-3, outputs=names, energy=True)
     (folder / "allocated.c").write_text(ALLOCATED)
     program = built(folder, "-Wl,--wrap=aligned_alloc")
-    sol = zd.simulate(zd.models.slider_crank(), 1.0, step=1e-3, outputs=names, energy=True, vector="baseline")
+    sol = zd.simulate(zd.models.slider_crank(), 1.0, step=1e-3, outputs=names, energy=True, vector="baseline", closed_form=False)
     rows, told = printed(program, 1.0)
     np.testing.assert_array_equal(rows, np.column_stack([sol.t, *(sol[name] for name in names)]))
     assert told == printed(program, 0.01)[1] != "0 allocations\n"
@@ -54,7 +54,8 @@ def test_a_crank_has_the_bits_of_simulate_and_allocates_before_its_steps(tmp_pat
 @needs_compiler
 def test_a_disc_in_space_has_the_bits_of_simulate(tmp_path, built):
     folder = zd.c_source(zd.models.rolling_disc(), tmp_path / "disc", step=1e-3, outputs=["disc.position"], integrator="heun")
-    sol = zd.simulate(zd.models.rolling_disc(), 0.5, step=1e-3, outputs=["disc.position"], integrator="heun", vector="baseline")
+    sol = zd.simulate(zd.models.rolling_disc(), 0.5, step=1e-3, outputs=["disc.position"], integrator="heun", vector="baseline",
+                      closed_form=False)
     rows, _ = printed(built(folder), 0.5)
     np.testing.assert_array_equal(rows, np.column_stack([sol.t, sol["disc.position"]]))
 
@@ -67,7 +68,7 @@ def test_least_reactions_of_redundant_constraints_have_the_bits_of_simulate(layo
     for name, z in (("upper", 1.0), ("lower", -1.0)):
         m.revolute(name, m.ground, leaf, at=(0, 0, z), axis=(0, 0, 1))
     folder = zd.c_source(m.system(layout), tmp_path / "door", step=1e-3, outputs=names)
-    sol = zd.simulate(m.system(layout), 0.01, step=1e-3, outputs=names, vector="baseline")
+    sol = zd.simulate(m.system(layout), 0.01, step=1e-3, outputs=names, vector="baseline", closed_form=False)
     rows, _ = printed(built(folder), 0.01)
     np.testing.assert_array_equal(rows, np.column_stack([sol.t, *(sol[name] for name in names)]))
     np.testing.assert_allclose(sol["upper.force"][:, 2], 9.81, rtol=0, atol=1e-9)

@@ -7,6 +7,7 @@ import pytest
 from zerodrift._core import ffi, lib
 
 from zerodrift import _gateway
+from zerodrift._gateway.compiled import programs
 from zerodrift.symbolics.compile.shared_library import QUICKLY
 
 # The sets of csrc/include/zerodrift/units.h by their unit's number and how many trajectories they take at once
@@ -40,21 +41,21 @@ class DirectSet:
         arrays = {name: np.full((size, self.lanes), np.nan) for name, size in sizes.items()}
         return arrays, [ffi.from_buffer("double[]", array) if array.size else ffi.NULL for array in arrays.values()]
 
-    def _called(self, function, inputs, sizes):
+    def _called(self, i, name, inputs, sizes):
         arrays, memory = self._into(**sizes)
         given = [ffi.NULL if x is None else ffi.from_buffer("double[]", np.ascontiguousarray(np.transpose(x))) for x in inputs]
-        assert function(self.data, ffi.NULL, *given, *memory) == 0
+        order = self.closed_form.order + i
+        assert getattr(order, name)(order, self.data, ffi.NULL, *given, *memory) == 0
         return {name: array.T for name, array in arrays.items()}
 
     def accelerate(self, i, t, p, v, added=None):
         """By name (lanes, size), of t (lanes,), p (lanes, nq), v (lanes, nv)."""
-        order = self.closed_form.order[i]
-        pivots = order.solves + self.nv - self.m
-        return self._called(order.accelerate, (t, p, v, added if self.m else None), {
+        pivots = self.closed_form.order[i].solves + self.nv - self.m
+        return self._called(i, "accelerate", (t, p, v, added if self.m else None), {
             "pdot": self.nq, "vdot": self.nv, "lambda": self.m, "power": 1, "pivots": pivots})
 
     def correct(self, i, t, p, v):
-        return self._called(self.closed_form.order[i].correct, (t, p, v), {"Phi": self.mh, "dp": self.nq, "dv": self.nv})
+        return self._called(i, "correct", (t, p, v), {"Phi": self.mh, "dp": self.nq, "dv": self.nv})
 
     def all(self, i, t, p, v, added):
         found = self.accelerate(i, t, p, v, added)
@@ -78,6 +79,17 @@ def closed_form_sets(system):
         data = np.frombuffer(ffi.buffer(ffi.cast("double *", c.data), 8 * kind.constants)).copy()
     sizes = system.nq, system.nv, system._core.c.mh, system.m
     return {(row.unit, row.lanes): row for row in rows}, sizes, data, system.p0
+
+
+def sets_by_programs(system):
+    """The same as programs, of a symbolic system or a mechanism; the last is what they refer to."""
+    is_mechanism = hasattr(system, "_written")
+    closed_form = system._closed_form[1] if is_mechanism else system._closed_form
+    sizes = system.nq, system.nv, system._core.c.mh, system.m
+    found, orders = closed_form.programs
+    rows, keep = programs.closed_forms(found, orders, (*sizes[:3], sizes[3] - sizes[2]), embeds=False)
+    data = programs.constants(found, system._written._values if is_mechanism else system._values)
+    return {(row.unit, row.lanes): row for row in rows if row.unit <= UNIT}, sizes, data, system.p0, (rows, keep)
 
 
 def doubles_of(written, closed_form, library):

@@ -8,7 +8,7 @@ import sympy as sp
 
 import tolerances as tol
 from support import assert_close
-from zerodrift.symbolics.graph import numpy_evaluation
+from zerodrift.symbolics.emit import program_writer
 from zerodrift.symbolics.graph.from_sympy import Reader
 from zerodrift.symbolics.graph.gradient import Gradient, Hessian
 from zerodrift.symbolics.graph.lowering import Lowering
@@ -60,7 +60,7 @@ def read(expression):
 def values(graph, nodes, points=POINTS):
     """Values of nodes at points, (points, nodes)."""
     lowering = Lowering(graph)
-    evaluate = numpy_evaluation.evaluator(lowering, {"of": [lowering.lower(node) for node in nodes]}, VALUES)
+    evaluate = program_writer.evaluator(lowering, {"of": [lowering.lower(node) for node in nodes]}, VALUES, SIZE)
     return evaluate(np.zeros(len(points)), points)["of"]
 
 

@@ -87,7 +87,8 @@ ZD_KERNEL void ZD_NAMED(call)(const zd_lanes *self, const zd_elimination *order,
                               const ZD_NAMED(rates) *to)
 {
     /* Lanes in which the function fails get NAN, which fails every comparison. */
-    const int unknown = order->accelerate(self->data, self->inputs, t, p, v, NULL, to->pdot, to->vdot, to->lambda, to->power, to->pivots);
+    const int unknown = order->accelerate(order, self->data, self->inputs, t, p, v, NULL, to->pdot, to->vdot, to->lambda, to->power,
+                                          to->pivots);
     ZD_NAMED(fill_pivots)(self, order, to->pivots);
     for (int lane = 0; unknown && lane < ZD_LANES; lane++)
         if (unknown >> lane & 1) to->vdot[lane] = NAN;
@@ -130,14 +131,14 @@ ZD_KERNEL void ZD_NAMED(correct)(const zd_lanes *self, const double *t, const do
     const int common = ZD_NAMED(common_order)(self);
     const zd_elimination *order = self->closed_form->order;
     if (common >= 0) {
-        order[common].correct(self->data, self->inputs, t, p, v, self->Phi, self->dp, self->dv);
+        order[common].correct(order + common, self->data, self->inputs, t, p, v, self->Phi, self->dp, self->dv);
         return;
     }
     double *dp = self->other, *dv = dp + self->nq * ZD_LANES;
     for (int i = 0; i < self->closed_form->orders; i++) {
         const zd_condition has = *REAL(self->order) == (double)i;
         if (!ZD_ANY(has)) continue;
-        order[i].correct(self->data, self->inputs, t, p, v, self->Phi, dp, dv);
+        order[i].correct(order + i, self->data, self->inputs, t, p, v, self->Phi, dp, dv);
         ZD_NAMED(take_where)(has, self->nq, dp, self->dp);
         ZD_NAMED(take_where)(has, self->nv, dv, self->dv);
     }

@@ -11,30 +11,32 @@
  *     (nv - m,)       relative pivots of D^T M D: positive, 1 if the elimination has not changed the diagonal entry
  *
  * Functions are pure, and return 0, or any other value if they fail; then, or if pivots are too small, the core takes the matrix path. */
-typedef struct zd_elimination {
+typedef struct zd_elimination zd_elimination;
+struct zd_elimination {
     int solves;             /* number of sets of constraints that are solved simultaneously */
     const int *solve;       /* (m,) set of the k-th of these rows and columns */
     const int *row, *column;    /* (m,) rows of C, and the velocities that they are solved for; each row once, each velocity at most once */
     /* vdot at the state, with `added` (m,) added to the right-hand side of (6), NULL: zero. pdot is written by systems with A only; lambda,
      * power and pivots may be NULL: not requested. The power is that of (28): ZD_POWER, and that of moving constraints, lambda^T Phi_t. */
-    int (*accelerate)(const void *data, const double *inputs, const double *t, const double *p, const double *v, const double *added,
-                      double *pdot, double *vdot, double *lambda, double *power, double *pivots);
+    int (*accelerate)(const zd_elimination *self, const void *data, const double *inputs, const double *t, const double *p, const double *v,
+                      const double *added, double *pdot, double *vdot, double *lambda, double *power, double *pivots);
     /* Phi (3), and Newton corrections in the metric of M, dp (nq,) of (25a) ... (27a) and dv (nv,) of (25b) ... (27b), both at (t, p, v), to
      * be subtracted. NULL without constraints. */
-    int (*correct)(const void *data, const double *inputs, const double *t, const double *p, const double *v, double *Phi, double *dp,
-                   double *dv);
+    int (*correct)(const zd_elimination *self, const void *data, const double *inputs, const double *t, const double *p, const double *v,
+                   double *Phi, double *dp, double *dv);
     /* Both at once, for the end of a step: Phi, and if every |Phi| is at most `allowed` (mh,), the corrected v - dv and the results of
      * accelerate() there with `added` zero. Otherwise dp only, with unchanged v and ZD_NO_CONVERGENCE. NULL: the core calls both other
      * functions. */
-    int (*finish)(const void *data, const double *inputs, const double *t, const double *p, double *v, const double *allowed, double *Phi,
-                  double *dp, double *pdot, double *vdot, double *lambda, double *power, double *pivots);
+    int (*finish)(const zd_elimination *self, const void *data, const double *inputs, const double *t, const double *p, double *v,
+                  const double *allowed, double *Phi, double *dp, double *pdot, double *vdot, double *lambda, double *power, double *pivots);
     /* The same for formulations in independent velocities, which are those not solved for: corrections change the dependent coordinates and
      * velocities only, instead of being shortest in the metric of M; `added` as above. D (m, nv - m), written together with the pivots, NULL
      * without them: derivatives of the velocities solved for with respect to the others, in their order. */
-    int (*embed)(const void *data, const double *inputs, const double *t, const double *p, double *v, const double *added,
-                 const double *allowed, double *Phi, double *dp, double *D, double *pdot, double *vdot, double *lambda, double *power,
-                 double *pivots);
-} zd_elimination;
+    int (*embed)(const zd_elimination *self, const void *data, const double *inputs, const double *t, const double *p, double *v,
+                 const double *added, const double *allowed, double *Phi, double *dp, double *D, double *pdot, double *vdot, double *lambda,
+                 double *power, double *pivots);
+    const void *program;    /* Further data of the functions, the same for all trajectories, or NULL */
+};
 
 /* Vector units: a processor that has one has all before it, too. */
 enum zd_unit {

@@ -8,6 +8,7 @@
  */
 #pragma once
 
+#include "../../laws/program.h"
 #include "../../include/zerodrift/system.h"
 
 /* Input of a relation or a generalized force: a marker quantity times a coefficient. */
@@ -81,17 +82,11 @@ typedef struct zd_output_spec {
  * if it failed. */
 typedef int zd_law(void *owner, int law, double t, const double *x, const double *xdot, double *out);
 
-/* Compiled user function, with its own parameters `numbers`. */
-typedef void zd_law_function(const double *numbers, double t, const double *x, const double *xdot, double *out);
-
-/* User functions that are inputs, see zd_input_slot: a generalized force, numbers (1,), and the speed of a drive, numbers (3,). */
-void zd_effort_input(const double *numbers, double t, const double *x, const double *xdot, double *out);
-void zd_speed_input(const double *numbers, double t, const double *x, const double *xdot, double *out);
-
-typedef struct zd_compiled_law {
-    zd_law_function *function;  /* NULL: there is none */
+/* User function as expressions, with its own parameters `numbers`. */
+typedef struct zd_law_program {
+    const zd_expressions *expressions;      /* NULL: there are none */
     const double *numbers;
-} zd_compiled_law;
+} zd_law_program;
 
 enum { ZD_MAX_LEAST = 200 };       /* largest number of constraints for which reactions are the least ones: work grows with its cube */
 

@@ -10,16 +10,16 @@ static int all_finite(const double *values, int count)
     return 1;
 }
 
-/* Evaluates the compiled user function; returns 0 if there is none, or if its values are not all finite. */
-static int has_said(const zd_compiled_law *compiled, const zd_readings *at, double t, int count)
+/* Evaluates the expressions; returns 0 if there are none, or if their values are not all finite. */
+static int has_said(const zd_law_program *program, const zd_readings *at, double t, int count)
 {
-    if (!compiled->function) return 0;
-    compiled->function(compiled->numbers, t, at->x, at->xdot, at->out);
+    if (!program->expressions) return 0;
+    zd_expressions_evaluate(program->expressions, program->numbers, t, at->x, at->xdot, at->out);
     return all_finite(at->out, count);
 }
 
-/* out (count,) <- values of user function `law`. If the compiled function has values that are not finite, the original one is called, as
- * it reports the reason. */
+/* out (count,) <- values of user function `law`. If its expressions have values that are not finite, the function is called, as it
+ * reports the reason. */
 static int ask(const zd_planned_elements *elements, const zd_readings *at, int law, int first, int terms, double t, int count)
 {
     for (int i = 0; i < terms; i++) {
@@ -27,7 +27,7 @@ static int ask(const zd_planned_elements *elements, const zd_readings *at, int l
         at->x[i] = zd_value_of(at, quantity);
         at->xdot[i] = zd_rate_of(at, quantity);
     }
-    if (elements->compiled && has_said(elements->compiled + law, at, t, count)) return ZD_DONE;
+    if (elements->program && has_said(elements->program + law, at, t, count)) return ZD_DONE;
     const int status = elements->law(elements->owner, law, t, at->x, at->xdot, at->out);
     return !status || status == ZD_NOT_FINITE ? status : ZD_CALLBACK;
 }

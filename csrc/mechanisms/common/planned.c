@@ -119,21 +119,3 @@ int zd_elements_terms(const zd_elements *elements, const zd_planned_elements *pl
     if (!knows_time(elements)) terms |= ZD_TIMELESS;
     return terms;
 }
-
-/* User functions that are inputs. */
-
-void zd_effort_input(const double *numbers, double t, const double *x, const double *xdot, double *out)
-{
-    (void)t, (void)x, (void)xdot;
-    out[0] = numbers[0];
-}
-
-/* The nonholonomic drive xdot - speed(t) = 0. */
-void zd_speed_input(const double *numbers, double t, const double *x, const double *xdot, double *out)
-{
-    (void)x, (void)xdot;
-    out[0] = 0;
-    out[1] = 1;
-    out[2] = -(numbers[0] + numbers[1] * (t - numbers[2]));
-    out[3] = -numbers[1];
-}

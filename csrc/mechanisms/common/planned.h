@@ -17,7 +17,7 @@ typedef struct zd_planned_elements {
     const zd_output_spec *output;
     zd_law *law;
     void *owner;
-    const zd_compiled_law *compiled;    /* by index of the user function: compiled ones, used instead of `law`. NULL: there are none */
+    const zd_law_program *program;      /* by index of the user function: expressions, used instead of `law`. NULL: there are none */
     zd_reading reading;             /* its arrays are those given; no functions: no user function reads reactions */
     int has_velocity_forces;        /* 1 if a generalized force depends on velocities, so that rates must be computed for the forces */
 } zd_planned_elements;

@@ -65,9 +65,9 @@ const zd_constraint_owner *zd_plane_rows(const zd_plane *mechanism);            
 const zd_plane_coordinate_owner *zd_plane_coordinates(const zd_plane *mechanism);         /* (nq,) */
 /* Size in bytes of the data of the system, for a copy of it: see zd_plane_with(). */
 int zd_plane_data_size(void);
-/* Copies the system's data into `data`, with the run's own owner of user functions, compiled user functions (NULL: none), and inputs of
+/* Copies the system's data into `data`, with the run's own owner of user functions, user functions as expressions (NULL: none), and inputs of
  * generated functions. The pointer to these inputs is the first member of the data. */
-void zd_plane_with(const zd_plane *mechanism, void *owner, const zd_compiled_law *compiled, const double *numbers, void *data);
+void zd_plane_with(const zd_plane *mechanism, void *owner, const zd_law_program *program, const double *numbers, void *data);
 
 /* Planned form of all joints and elements: links of a tree, rows, and generalized forces along marker quantities. Bodies are numbered as in
  * the tree, parents before children. */

@@ -68,10 +68,10 @@ zd_space_quantity zd_space_coordinate_quantity(const zd_space_joint *joint, int 
 /* As zd_plane_components(); row (count, 2, 6). */
 void zd_space_components(const void *mechanism, const double *p, const double *v, int count, const int *which, double *value, int *at,
                          double *row, double *scratch);
-/* Size in bytes of the data of the system; and a copy of these data with the run's own owner of user functions, compiled user functions
+/* Size in bytes of the data of the system; and a copy of these data with the run's own owner of user functions, user functions as expressions
  * (NULL: none), and inputs of generated functions. The pointer to these inputs is the first member of the data. */
 int zd_space_data_size(void);
-void zd_space_with(const zd_space *space, void *owner, const zd_compiled_law *compiled, const double *numbers, void *data);
+void zd_space_with(const zd_space *space, void *owner, const zd_law_program *program, const double *numbers, void *data);
 
 /* Planned form of all joints outside the tree and of all elements: rows, and generalized forces along marker quantities. */
 typedef struct zd_space_plan {

@@ -85,7 +85,7 @@ const zd_closed_form zd_four_bar_closed_form[] = {
 #else
 #include "../../include/zerodrift/lanes.h"
 
-ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, const double *with_added, double *to_pdot, double *to_vdot, double *to_lambda,
     double *to_power, double *to_pivots)
 {
@@ -101,7 +101,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1], p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1], v2 = v[2];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0), added1 = added ? (zd_real)added[1] : ZD_SPLAT(0.0);
@@ -160,7 +160,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     return ZD_DONE;
 }
 
-ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(correct_0)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, double *to_Phi, double *to_dp, double *to_dv)
 {
     const zd_stored *restrict const k = (const zd_stored *)((const double *)data + 14 * ZD_LANES);
@@ -172,7 +172,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_inp
     zd_stored *restrict const dp = (zd_stored *)to_dp;
     zd_stored *restrict const dv = (zd_stored *)to_dv;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1], p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1], v2 = v[2];
     /* Phi (3); dp (25a), (26a), (27a); dv (25b), (26b), (27b) */
@@ -220,7 +220,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_inp
 }
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(finish_0)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     double *to_v, const double *where_allowed, double *to_Phi, double *to_dp, double *to_pdot, double *to_vdot,
     double *to_lambda, double *to_power, double *to_pivots)
 {
@@ -238,7 +238,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inpu
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1], p2 = p[2];
     const zd_real before0 = v[0], before1 = v[1], before2 = v[2];
     /* Phi (3) */
@@ -340,7 +340,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inpu
 #endif
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(correct_1)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, double *to_Phi, double *to_dp, double *to_dv)
 {
     const zd_stored *restrict const k = (const zd_stored *)((const double *)data + 14 * ZD_LANES);
@@ -352,7 +352,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_inp
     zd_stored *restrict const dp = (zd_stored *)to_dp;
     zd_stored *restrict const dv = (zd_stored *)to_dv;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1], p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1], v2 = v[2];
     /* Phi (3); dp (25a), (26a), (27a); dv (25b), (26b), (27b) */
@@ -398,7 +398,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_inp
 #endif
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(embed_1)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     double *to_v, const double *with_added, const double *where_allowed, double *to_Phi, double *to_dp,
     double *to_D, double *to_pdot, double *to_vdot, double *to_lambda, double *to_power, double *to_pivots)
 {
@@ -418,7 +418,7 @@ ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_input
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)added, (void)v, (void)Phi, (void)dp, (void)D, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)added, (void)v, (void)Phi, (void)dp, (void)D, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1], p2 = p[2];
     const zd_real before0 = v[0], before1 = v[1], before2 = v[2];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0), added1 = added ? (zd_real)added[1] : ZD_SPLAT(0.0);
@@ -513,12 +513,12 @@ ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_input
 #define ZD_FINISH(name) NULL
 #endif
 static const zd_elimination ZD_NAMED(orders)[] = {
-    {1, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), ZD_NAMED(correct_0), ZD_FINISH(finish_0), NULL},
+    {1, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), ZD_NAMED(correct_0), ZD_FINISH(finish_0), NULL, NULL},
 };
 #undef ZD_FINISH
 #if ZD_LANES == 1
 static const zd_elimination ZD_NAMED(embeddings)[] = {
-    {2, solve_1, row_1, column_1, NULL, ZD_NAMED(correct_1), NULL, ZD_NAMED(embed_1)},
+    {2, solve_1, row_1, column_1, NULL, ZD_NAMED(correct_1), NULL, ZD_NAMED(embed_1), NULL},
 };
 #endif
 

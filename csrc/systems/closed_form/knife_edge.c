@@ -74,7 +74,7 @@ const zd_closed_form zd_knife_edge_closed_form[] = {
 #else
 #include "../../include/zerodrift/lanes.h"
 
-ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, const double *with_added, double *to_pdot, double *to_vdot, double *to_lambda,
     double *to_power, double *to_pivots)
 {
@@ -90,7 +90,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1], v2 = v[2];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
@@ -121,7 +121,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     return ZD_DONE;
 }
 
-ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(correct_0)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, double *to_Phi, double *to_dp, double *to_dv)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
@@ -133,7 +133,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_inp
     zd_stored *restrict const dp = (zd_stored *)to_dp;
     zd_stored *restrict const dv = (zd_stored *)to_dv;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1];
     /* dp (25a), (26a), (27a); dv (25b), (26b), (27b) */
@@ -156,7 +156,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_inp
 }
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(finish_0)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     double *to_v, const double *where_allowed, double *to_Phi, double *to_dp, double *to_pdot, double *to_vdot,
     double *to_lambda, double *to_power, double *to_pivots)
 {
@@ -174,7 +174,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inpu
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p2 = p[2];
     const zd_real before0 = v[0], before1 = v[1], before2 = v[2];
     /* dv (25b), (26b), (27b) */
@@ -216,7 +216,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inpu
 }
 #endif
 
-ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, const double *with_added, double *to_pdot, double *to_vdot, double *to_lambda,
     double *to_power, double *to_pivots)
 {
@@ -232,7 +232,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1], v2 = v[2];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
@@ -263,7 +263,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_
     return ZD_DONE;
 }
 
-ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(correct_1)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, double *to_Phi, double *to_dp, double *to_dv)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
@@ -275,7 +275,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_inp
     zd_stored *restrict const dp = (zd_stored *)to_dp;
     zd_stored *restrict const dv = (zd_stored *)to_dv;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1];
     /* dp (25a), (26a), (27a); dv (25b), (26b), (27b) */
@@ -298,7 +298,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_inp
 }
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(finish_1)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(finish_1)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     double *to_v, const double *where_allowed, double *to_Phi, double *to_dp, double *to_pdot, double *to_vdot,
     double *to_lambda, double *to_power, double *to_pivots)
 {
@@ -316,7 +316,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_1)(const void *data, const double *at_inpu
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p2 = p[2];
     const zd_real before0 = v[0], before1 = v[1], before2 = v[2];
     /* dv (25b), (26b), (27b) */
@@ -364,8 +364,8 @@ ZD_ON_UNIT static int ZD_NAMED(finish_1)(const void *data, const double *at_inpu
 #define ZD_FINISH(name) NULL
 #endif
 static const zd_elimination ZD_NAMED(orders)[] = {
-    {1, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), ZD_NAMED(correct_0), ZD_FINISH(finish_0), NULL},
-    {1, solve_1, row_1, column_1, ZD_NAMED(accelerate_1), ZD_NAMED(correct_1), ZD_FINISH(finish_1), NULL},
+    {1, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), ZD_NAMED(correct_0), ZD_FINISH(finish_0), NULL, NULL},
+    {1, solve_1, row_1, column_1, ZD_NAMED(accelerate_1), ZD_NAMED(correct_1), ZD_FINISH(finish_1), NULL, NULL},
 };
 #undef ZD_FINISH
 

@@ -74,7 +74,7 @@ const zd_closed_form zd_oscillator_closed_form[] = {
 #else
 #include "../../include/zerodrift/lanes.h"
 
-ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, const double *with_added, double *to_pdot, double *to_vdot, double *to_lambda,
     double *to_power, double *to_pivots)
 {
@@ -90,7 +90,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0];
     /* vdot (17) */
     vdot[0] = -((p0 * k[1]) * k[4]);
@@ -105,7 +105,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
 }
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(embed_1)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     double *to_v, const double *with_added, const double *where_allowed, double *to_Phi, double *to_dp,
     double *to_D, double *to_pdot, double *to_vdot, double *to_lambda, double *to_power, double *to_pivots)
 {
@@ -125,7 +125,7 @@ ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_input
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)added, (void)v, (void)Phi, (void)dp, (void)D, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)added, (void)v, (void)Phi, (void)dp, (void)D, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0];
     const zd_real before0 = v[0];
     /* dv (14), (16) */
@@ -150,12 +150,12 @@ ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_input
 #define ZD_FINISH(name) NULL
 #endif
 static const zd_elimination ZD_NAMED(orders)[] = {
-    {0, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), NULL, NULL, NULL},
+    {0, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), NULL, NULL, NULL, NULL},
 };
 #undef ZD_FINISH
 #if ZD_LANES == 1
 static const zd_elimination ZD_NAMED(embeddings)[] = {
-    {0, solve_1, row_1, column_1, NULL, NULL, NULL, ZD_NAMED(embed_1)},
+    {0, solve_1, row_1, column_1, NULL, NULL, NULL, ZD_NAMED(embed_1), NULL},
 };
 #endif
 

@@ -83,7 +83,7 @@ const zd_closed_form zd_pendulum_closed_form[] = {
 #else
 #include "../../include/zerodrift/lanes.h"
 
-ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, const double *with_added, double *to_pdot, double *to_vdot, double *to_lambda,
     double *to_power, double *to_pivots)
 {
@@ -99,7 +99,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
@@ -127,7 +127,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     return ZD_DONE;
 }
 
-ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(correct_0)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, double *to_Phi, double *to_dp, double *to_dv)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
@@ -139,7 +139,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_inp
     zd_stored *restrict const dp = (zd_stored *)to_dp;
     zd_stored *restrict const dv = (zd_stored *)to_dv;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
     /* Phi (3); dp (25a), (26a), (27a); dv (25b), (26b), (27b) */
@@ -163,7 +163,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_inp
 }
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(finish_0)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     double *to_v, const double *where_allowed, double *to_Phi, double *to_dp, double *to_pdot, double *to_vdot,
     double *to_lambda, double *to_power, double *to_pivots)
 {
@@ -181,7 +181,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inpu
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real before0 = v[0], before1 = v[1];
     /* Phi (3) */
@@ -234,7 +234,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inpu
 }
 #endif
 
-ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, const double *with_added, double *to_pdot, double *to_vdot, double *to_lambda,
     double *to_power, double *to_pivots)
 {
@@ -250,7 +250,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
@@ -278,7 +278,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_
     return ZD_DONE;
 }
 
-ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(correct_1)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, double *to_Phi, double *to_dp, double *to_dv)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
@@ -290,7 +290,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_inp
     zd_stored *restrict const dp = (zd_stored *)to_dp;
     zd_stored *restrict const dv = (zd_stored *)to_dv;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
     /* Phi (3); dp (25a), (26a), (27a); dv (25b), (26b), (27b) */
@@ -314,7 +314,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_inp
 }
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(finish_1)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(finish_1)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     double *to_v, const double *where_allowed, double *to_Phi, double *to_dp, double *to_pdot, double *to_vdot,
     double *to_lambda, double *to_power, double *to_pivots)
 {
@@ -332,7 +332,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_1)(const void *data, const double *at_inpu
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real before0 = v[0], before1 = v[1];
     /* Phi (3) */
@@ -386,7 +386,7 @@ ZD_ON_UNIT static int ZD_NAMED(finish_1)(const void *data, const double *at_inpu
 #endif
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(correct_2)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(correct_2)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, double *to_Phi, double *to_dp, double *to_dv)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
@@ -398,7 +398,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_2)(const void *data, const double *at_inp
     zd_stored *restrict const dp = (zd_stored *)to_dp;
     zd_stored *restrict const dv = (zd_stored *)to_dv;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
     /* Phi (3); dp (25a), (26a), (27a); dv (25b), (26b), (27b) */
@@ -423,7 +423,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_2)(const void *data, const double *at_inp
 #endif
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(embed_2)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(embed_2)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     double *to_v, const double *with_added, const double *where_allowed, double *to_Phi, double *to_dp,
     double *to_D, double *to_pdot, double *to_vdot, double *to_lambda, double *to_power, double *to_pivots)
 {
@@ -443,7 +443,7 @@ ZD_ON_UNIT static int ZD_NAMED(embed_2)(const void *data, const double *at_input
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)added, (void)v, (void)Phi, (void)dp, (void)D, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)added, (void)v, (void)Phi, (void)dp, (void)D, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real before0 = v[0], before1 = v[1];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
@@ -496,7 +496,7 @@ ZD_ON_UNIT static int ZD_NAMED(embed_2)(const void *data, const double *at_input
 #endif
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(correct_3)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(correct_3)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, double *to_Phi, double *to_dp, double *to_dv)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
@@ -508,7 +508,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_3)(const void *data, const double *at_inp
     zd_stored *restrict const dp = (zd_stored *)to_dp;
     zd_stored *restrict const dv = (zd_stored *)to_dv;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
     /* Phi (3); dp (25a), (26a), (27a); dv (25b), (26b), (27b) */
@@ -533,7 +533,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_3)(const void *data, const double *at_inp
 #endif
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(embed_3)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(embed_3)(const zd_elimination *self, const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     double *to_v, const double *with_added, const double *where_allowed, double *to_Phi, double *to_dp,
     double *to_D, double *to_pdot, double *to_vdot, double *to_lambda, double *to_power, double *to_pivots)
 {
@@ -553,7 +553,7 @@ ZD_ON_UNIT static int ZD_NAMED(embed_3)(const void *data, const double *at_input
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)added, (void)v, (void)Phi, (void)dp, (void)D, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)self, (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)added, (void)v, (void)Phi, (void)dp, (void)D, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real before0 = v[0], before1 = v[1];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
@@ -611,14 +611,14 @@ ZD_ON_UNIT static int ZD_NAMED(embed_3)(const void *data, const double *at_input
 #define ZD_FINISH(name) NULL
 #endif
 static const zd_elimination ZD_NAMED(orders)[] = {
-    {1, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), ZD_NAMED(correct_0), ZD_FINISH(finish_0), NULL},
-    {1, solve_1, row_1, column_1, ZD_NAMED(accelerate_1), ZD_NAMED(correct_1), ZD_FINISH(finish_1), NULL},
+    {1, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), ZD_NAMED(correct_0), ZD_FINISH(finish_0), NULL, NULL},
+    {1, solve_1, row_1, column_1, ZD_NAMED(accelerate_1), ZD_NAMED(correct_1), ZD_FINISH(finish_1), NULL, NULL},
 };
 #undef ZD_FINISH
 #if ZD_LANES == 1
 static const zd_elimination ZD_NAMED(embeddings)[] = {
-    {1, solve_2, row_2, column_2, NULL, ZD_NAMED(correct_2), NULL, ZD_NAMED(embed_2)},
-    {1, solve_3, row_3, column_3, NULL, ZD_NAMED(correct_3), NULL, ZD_NAMED(embed_3)},
+    {1, solve_2, row_2, column_2, NULL, ZD_NAMED(correct_2), NULL, ZD_NAMED(embed_2), NULL},
+    {1, solve_3, row_3, column_3, NULL, ZD_NAMED(correct_3), NULL, ZD_NAMED(embed_3), NULL},
 };
 #endif
 

@@ -8,11 +8,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .._core import ffi, lib
+from .._core import ffi
 from .base import doubles
-
-EFFORT_LAW = int(ffi.cast("intptr_t", ffi.addressof(lib, "zd_effort_input")))       # user functions that read an input
-SPEED_LAW = int(ffi.cast("intptr_t", ffi.addressof(lib, "zd_speed_input")))
 
 
 class Place(NamedTuple):

@@ -1,4 +1,4 @@
-"""Events whose quantities the core reads: one of them, or a compiled function or one in Python of several, reaches a value."""
+"""Events whose quantities the core reads: one of them, an expression or a function in Python of several, reaches a value."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class KnownEvent(NamedTuple):
 
     readings: tuple[Reading, ...]
     value: float                        # which it reaches
-    function: tuple[int, Any] | None = None     # the address of a function of the readings, and its library; None: the first
+    function: tuple[Any, Any] | None = None     # a `zd_expressions` of the readings, and what it refers to; None: the first
     parameters: frozenset[str] = frozenset()    # of the system, whose values are among the readings
     is_called: bool = False     # True: a function in Python is called with the readings
 
@@ -41,6 +41,6 @@ def known_table(events: Sequence[KnownEvent | None]) -> tuple[Any, Any]:
     rows = [{} if event is None else {
         "readings": len(event.readings), "reading": readings, "value": event.value,
         "is_called": event.is_called,
-        "function": ffi.cast("double(*)(const double *)", event.function[0]) if event.function else ffi.NULL}
+        "function": event.function[0] if event.function else ffi.NULL}
         for event, readings in zip(events, kept, strict=True)]
     return ffi.new("zd_event[]", rows), (kept, events)

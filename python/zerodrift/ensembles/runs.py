@@ -109,7 +109,9 @@ class Runs:
 
     def __init__(self, made: Any, parameters: Any, p0: Any, v0: Any, start: Any, hold: Any, *, assembles: bool) -> None:
         self.hold, self.may_assemble = hold, assembles
-        self.made = made if callable(made) and not isinstance(made, BaseSystem) else system_of(made)._by_tables()
+        self.made = made if callable(made) and not isinstance(made, BaseSystem) else system_of(made)
+        if parameters and isinstance(self.made, BaseSystem):
+            self.made = self.made._by_matrices()
         columns, counts = _columns("parameters", parameters)
         start, more = _columns("start", None if start is None else {name_of(each, "a key of start"): value
                                                                     for each, value in _dict("start", start).items()})
@@ -155,7 +157,7 @@ class Runs:
             system = system_of(self.made(**parameters))
             if not isinstance(system, BaseSystem):
                 raise NoSystem(f"{named(self.made)} must return a system or a Mechanism, not {_check.shown(system)}")
-            return system._by_tables()
+            return system._by_matrices()
         return self.made.with_parameters(parameters) if parameters else self.made
 
     def is_tabular(self, system: BaseSystem, run: int) -> bool:

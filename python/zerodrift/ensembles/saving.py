@@ -176,6 +176,7 @@ def unpacked_plan(arrays: dict[str, np.ndarray], rebuilt: Callable[[dict[str, An
     made, reason = None, described["why_not"]
     if described["system"] is not None:
         made = saving.restored_system(described["system"], rebuilt)
+        made = made._by_matrices() if names["parameters"] else made
         if isinstance(made, saving.Described):
             reason = f"of {made.name} only the description was kept"
     runs = object.__new__(Runs)

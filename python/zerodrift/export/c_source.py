@@ -28,7 +28,8 @@ def c_source(system: SystemLike, folder: str | Path, *, step: float, outputs: Me
     in ``data.h``, and a short ``main.c`` with the memory of a sample in ``sample.h``. They need a C compiler and its standard
     library, and nothing else; all memory is allocated before the first step, except for reactions of redundant constraints.
     ``main T`` simulates T seconds and prints t and the outputs with 17 digits, one line for each step. Compiled with
-    ``-ffp-contract=off``, its numbers have the bits of `simulate` with ``vector="baseline"``.
+    ``-ffp-contract=off``, its numbers have the bits of `simulate` with ``vector="baseline"`` and
+    ``closed_form=False``.
 
     Parameters
     ----------

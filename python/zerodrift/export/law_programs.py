@@ -8,10 +8,8 @@ from typing import Any
 from .._gateway.mechanisms.blocks import FUNCTIONS, OPERATIONS
 from ..errors import WrongValue
 from ..laws.table import Table
-from ..mechanisms.equations import function_calls, function_code
-from ..symbolics.compile.law_terms import Leaves
+from ..mechanisms.equations import function_calls, function_programs
 from ..symbolics.graph.lowering import Lowering
-from ..symbolics.graph.plain_functions import Plain
 
 Instruction = tuple[float, float, float, float]
 
@@ -166,27 +164,7 @@ def _needed(lowering: Lowering, results: Sequence[int]) -> set[int]:
 
 def _nodes(row: function_calls.Call, k: int) -> tuple[str, Any, Any, Any]:
     """Name, graph, nodes of the results, and values of the parameters of a user function."""
-    law = row.law
-    if law.inner_expression is not None:
-        return law.what, *function_code.nodes_of(row, k)
-    if law.constant is None and not hasattr(law._function, "written"):
-        raise WrongValue(f"{law.what} is a callable, which a block cannot hold: give a number, an expression of SymPy "
+    if not row.law.has_nodes:
+        raise WrongValue(f"{row.law.what} is a callable, which a block cannot hold: give a number, an expression of SymPy "
                          "or zd.table(x, y)", "not-portable")
-    equations = _Equations(row.parameters, k)
-    nodes = row.said(equations.leaves, row.written(equations, equations.leaves.x, equations.leaves.xdot))
-    return law.what, equations.graph, nodes, list(row.parameters.values())
-
-
-class _Equations:
-    """Equations into which a user function without an expression is written."""
-
-    def __init__(self, parameters: Any, k: int) -> None:
-        self.functions = Plain()
-        self.graph = self.functions.graph
-        self.parameters = {name: self.graph.leaf("parameter", i) for i, name in enumerate(parameters)}
-        self.leaves = Leaves(self.graph, k)
-        self.t = self.leaves.t
-
-    def difference(self, a: Any, b: Any) -> Any:
-        """Node of a - b."""
-        return self.graph.plus(a, self.graph.minus(b))
+    return row.law.what, *function_programs.nodes_of(row, k)

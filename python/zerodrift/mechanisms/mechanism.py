@@ -101,11 +101,12 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
             velocities a body, and the angles of all joints. Chains of balls are cheaper in absolute coordinates, those of hinges
             from some twenty on.
         compiled : None or bool
-            None: tables are interpreted, but a run of fixed steps that gains more than 5 s by it, from a count of operations,
-            compiles them before its first step; ``print(sol)`` of others has what `compiled` would save. False, or
-            ZERODRIFT_COMPILE=0 in the environment, refuse that.
+            None: tables are interpreted, and small mechanisms evaluated in closed form by programs that the core runs. A run
+            of fixed steps that gains more than 5 s by it, from a count of instructions, compiles the equations before its
+            first step, with the same bits; ``print(sol)`` of others has what `compiled` would save. ZERODRIFT_COMPILE=0 in the
+            environment refuses that. False: tables and matrices alone.
             True: the equations are written out, compiled and cached, with closed-form functions where these pay:
-            several times faster for small mechanisms, after a second or more once. Numbers stay numbers that
+            some four times faster for small mechanisms, after a second or more once. Numbers stay numbers that
             `with_parameters` changes; which of them are zero or one, and which points of a body coincide, is in the code, and
             where that changes, it is compiled anew by itself. What the user prescribes must be numbers, SymPy expressions
             or profiles of cams: `zerodrift.table` is a function, too. Without a compiler the tables are interpreted, with a

@@ -17,7 +17,7 @@ from .._gateway.compiled.precise import Precise
 from .._gateway.mechanisms import law_inputs
 from .._gateway.mechanisms.core import MechanismCore
 from ..errors import WrongValue, ZerodriftError, sentence
-from ..symbolics.compile.closed_form_library import CLOSED_FORM, NO_COMPILER, ClosedFormFunctions
+from ..symbolics.compile.closed_form_library import CLOSED_FORM, ClosedFormFunctions
 from ..systems.defaults import WithInputs
 from ..systems.parameter_tables import NumberTables, refusals
 from ..systems.shapes import Shape
@@ -65,7 +65,7 @@ class MechanismSystem(Reported):
     """
 
     def __init__(self, drawing: Drawing, layout: str | None, changed: dict[str, float], compiled: bool | None = None,
-                 closed_form: tuple[str, ClosedFormFunctions] | None = None) -> None:
+                 closed_form: tuple[str, ClosedFormFunctions] | None = None, has_inputs: bool = False) -> None:
         self._drawing, self._changed, self.name = drawing, changed, drawing.name
         self._numbers = Numbers(changed)
         self._tables = tables_of(drawing, self._numbers, in_tree=layout != "absolute")
@@ -74,7 +74,7 @@ class MechanismSystem(Reported):
             self._tables = self._tables.absolute()
         self._start = Starting(drawing, self._numbers, self._tables)
         self._first_core = self._plain_core(self._tables)
-        self._compiled, self._given_closed_form = compiled, closed_form
+        self._compiled, self._given_closed_form, self._has_inputs = compiled, closed_form, has_inputs
         if compiled:
             self._check_written()
             self._written       # noqa: B018 - generates the code now
@@ -158,7 +158,8 @@ class MechanismSystem(Reported):
 
     @functools.cached_property
     def _written(self) -> Written:
-        return Written(self._interpreted, self._started_tables.laws, self._tables.parameters, self.name)
+        return Written(self._interpreted, self._started_tables.laws, self._tables.parameters, self.name,
+                       compiles=self._is_written_out, has_inputs=self._has_inputs)
 
     @functools.cached_property
     def _closed_form(self) -> tuple[str, ClosedFormFunctions]:
@@ -180,17 +181,29 @@ class MechanismSystem(Reported):
         return {}
 
     def _closed_form_core(self, vector: str = "baseline", embeds: bool = False) -> MechanismCore:
-        if not self.compiled:
+        if not self.compiled and not self._takes_programs:
             return self._core
-        cores = self._cores_with_closed_form
-        if (vector, embeds) not in cores:
-            functions = self._closed_form[1]
-            cores[vector, embeds] = self._written.with_closed_form(functions.embedding if embeds else functions, vector)
-        return cores[vector, embeds]
+        cores, key = self._cores_with_closed_form, (vector if self.compiled else "", embeds)
+        if key not in cores:
+            functions = self._closed_form[1].embedding if embeds else self._closed_form[1]
+            cores[key] = (self._written.with_closed_form(functions, vector) if self.compiled else
+                          self._written.with_programs(functions, embeds))
+        return cores[key]
+
+    @property
+    def _takes_programs(self) -> bool:
+        """True if closed-form functions may be programs that the core runs: equations are not compiled, but could be."""
+        return not self.compiled and self._compiled is not False and self._why_not_compiled() is None
+
+    def _instructions(self) -> int:
+        found = self._closed_form[1].programs if self._takes_programs else None
+        return found[0].instructions if found else 0
 
     def _core_in_lanes(self, vector: str, embeds: bool = False) -> MechanismCore:
         core = self._closed_form_core(vector, embeds)
-        library = None if embeds or not core.has_closed_form else self._closed_form[1].library_in_lanes(vector)
+        if embeds or not self.compiled or not core.has_closed_form:
+            return core
+        library = self._closed_form[1].library_in_lanes(vector)
         return core if library is None else core.with_lanes(_gateway.address_of(library, CLOSED_FORM), library)
 
     def _with_jacobian(self, core: CoreSystem, vector: str = "baseline") -> CoreSystem:
@@ -230,14 +243,13 @@ class MechanismSystem(Reported):
         gains = self._compiled is None and self._gains_by_compiling(steps)
         return MechanismSystem(self._drawing, self.layout, self._changed, compiled=True) if gains else None
 
-    def _by_tables(self) -> MechanismSystem:
+    def _by_matrices(self) -> MechanismSystem:
         return MechanismSystem(self._drawing, self.layout, self._changed, False) if self._compiled is None else self
 
-    def _why_no_closed_form(self, embeds: bool = False, steps: float = 0.0) -> str | None:
-        if not self._is_written_out:
-            return self._why_interpreted(steps)
-        functions = self._closed_form[1]
-        return (functions.embedding if embeds else functions).why_none if self.compiled else NO_COMPILER
+    def _why_no_closed_form(self, embeds: bool = False) -> str | None:
+        if not self.compiled and not self._takes_programs:
+            return "compiled=False" if self._compiled is False else self._why_not_compiled() or None
+        return (self._closed_form[1].embedding if embeds else self._closed_form[1]).why_none
 
     @functools.cached_property
     def p0(self) -> np.ndarray:
@@ -252,7 +264,7 @@ class MechanismSystem(Reported):
     @functools.lru_cache(maxsize=4)     # noqa: B019 - the cache lives as long as the system
     def start_at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
         """Assembled start (p, v) at a time: held values and drives are satisfied, all else is nearest to the drawing."""
-        p, v = self._core.state(*self._start.at(t))
+        p, v = self._interpreted.state(*self._start.at(t))
         if self._drawing.is_balanced:
             from ..analysis.equilibrium import balanced  # slow to import and rarely needed
 
@@ -264,7 +276,7 @@ class MechanismSystem(Reported):
         drawing = self._drawing
         more, wished = (targets(given, what, drawing.dimension) for given, what in ((held, "held"), (wish, "wish")))
         drawing = drawing._replace(held=drawing.held | more, wished=drawing.wished | wished)
-        return self._core.state(*Starting(drawing, self._numbers, self._tables).at(t, nudge=nudge))
+        return self._interpreted.state(*Starting(drawing, self._numbers, self._tables).at(t, nudge=nudge))
 
     def _state_or_start(self, p: Any, v: Any, p_name: str = "p0", v_name: str = "v0",
                         t: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
@@ -306,7 +318,7 @@ class MechanismSystem(Reported):
 
     def _with_inputs(self, names: Sequence[str]) -> WithInputs:
         found = driven(self._drawing, names, self._changed)
-        system = MechanismSystem(found.drawing, self.layout, self._changed, self._compiled)
+        system = MechanismSystem(found.drawing, self.layout, self._changed, self._compiled, has_inputs=True)
         return WithInputs(system, found.initial, found.units, law_inputs.bound)
 
     def _names_of_inputs(self) -> list[str]:
@@ -314,8 +326,7 @@ class MechanismSystem(Reported):
 
     def _with(self, changed: dict[str, Any]) -> MechanismSystem:
         numbers = {name: checked(name, value) for name, value in changed.items()}
-        closed_form = self._closed_form if self._is_written_out else None
-        return MechanismSystem(self._drawing, self.layout, self._changed | numbers, self._compiled, closed_form)
+        return MechanismSystem(self._drawing, self.layout, self._changed | numbers, self._compiled, self._known_closed_form())
 
     def _driven_from(self, places: list[float]) -> MechanismSystem:
         """The same system with these initial positions of its motors of constant speed, as assembled or nearly."""
@@ -328,8 +339,11 @@ class MechanismSystem(Reported):
         return self.layout, drawing.gravity, drawing.elements
 
     def __reduce__(self) -> tuple[Any, ...]:
-        closed_form = self._closed_form if self._is_written_out else None
-        return MechanismSystem, (self._drawing, self.layout, self._changed, self._compiled, closed_form)
+        return MechanismSystem, (self._drawing, self.layout, self._changed, self._compiled, self._known_closed_form())
+
+    def _known_closed_form(self) -> tuple[str, ClosedFormFunctions] | None:
+        """Closed-form functions for the same system with other numbers, which so has the same orders; None: it has none."""
+        return self._closed_form if self._is_written_out or self._takes_programs else None
 
     def _described(self) -> dict[str, Any]:
         """As of any system, with the mechanism or the reason why it cannot be saved."""

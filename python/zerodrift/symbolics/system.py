@@ -125,7 +125,7 @@ class SymbolicSystem(BaseSystem):
             self._with_closed_form[vector, embeds] = core.with_closed_form(address, data, library)
         return self._with_closed_form[vector, embeds]
 
-    def _why_no_closed_form(self, embeds: bool = False, steps: float = 0.0) -> str:
+    def _why_no_closed_form(self, embeds: bool = False) -> str:
         return self._functions(embeds).why_none if self.compiled else NO_COMPILER
 
     def _with_series(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:

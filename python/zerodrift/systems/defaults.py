@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -51,21 +51,22 @@ class Defaults:
         """The core's system with closed-form functions; those for independent velocities (`embeds`) are separate functions."""
         return self._core
 
-    def _why_no_closed_form(self, embeds: bool = False, steps: float = 0.0) -> str | None:
-        """Known reason why the system has no closed-form functions; empty: it has some; None: systems of its kind have none.
+    def _why_interpreted(self, steps: float) -> str | None:
+        """Time that compiling would save in so many corrected steps of "rk4", in words; None: nothing is interpreted."""
+        return None
 
-        `steps`: number of corrected steps of "rk4" that take as long as a run, where that matters.
-        """
+    def _why_no_closed_form(self, embeds: bool = False) -> str | None:
+        """Known reason why the system has no closed-form functions; empty: it has some; None: systems of its kind have none."""
         core = getattr(self, "_core", None)
         return "" if core is not None and core.has_closed_form else None
+
+    def _by_matrices(self) -> Any:
+        """The same system without closed forms as programs, which batches of runs with different numbers do not have."""
+        return self
 
     def _compiled_for(self, steps: int) -> Any:
         """The same system with compiled equations, if a run of so many fixed steps gains by it; None: it does not."""
         return None
-
-    def _by_tables(self) -> Self:
-        """The same system, for which runs choose no compiled equations: an ensemble has the bits of its batches."""
-        return self
 
     def _parameter_units(self) -> dict[str, str]:
         """Units of the parameters, as far as they are known."""

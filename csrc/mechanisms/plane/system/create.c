@@ -319,13 +319,13 @@ const zd_constraint_owner *zd_plane_rows(const zd_plane *mechanism) { return mec
 const zd_plane_coordinate_owner *zd_plane_coordinates(const zd_plane *mechanism) { return mechanism->coordinate; }
 int zd_plane_data_size(void) { return (int)sizeof(zd_plane); }
 
-void zd_plane_with(const zd_plane *mechanism, void *owner, const zd_compiled_law *compiled, const double *numbers,
+void zd_plane_with(const zd_plane *mechanism, void *owner, const zd_law_program *program, const double *numbers,
                        void *data)
 {
     zd_plane *mine = data;
     *mine = *mechanism;
     mine->elements.owner = owner;
-    mine->elements.compiled = compiled;
+    mine->elements.program = program;
     mine->numbers = numbers;
 }
 

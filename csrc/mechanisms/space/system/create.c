@@ -225,11 +225,11 @@ int zd_space_angles(const zd_space *space, int *place)
 
 int zd_space_data_size(void) { return (int)sizeof(zd_space); }
 
-void zd_space_with(const zd_space *space, void *owner, const zd_compiled_law *compiled, const double *numbers, void *data)
+void zd_space_with(const zd_space *space, void *owner, const zd_law_program *program, const double *numbers, void *data)
 {
     zd_space copied = *space;
     copied.elements.owner = owner;
-    copied.elements.compiled = compiled;
+    copied.elements.program = program;
     copied.numbers = numbers;
     memcpy(data, &copied, sizeof copied);
 }

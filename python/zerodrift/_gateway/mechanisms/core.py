@@ -15,7 +15,7 @@ from ..base import MESSAGE_SIZE, text
 from ..systems import CoreSystem
 from .assembly import displaced, displacement
 from .element_tables import Row, law_sizes, rows_of, written_elements
-from .law_owner import Law, LawOwner, compiled_table
+from .law_owner import Law, LawOwner, table_of_programs
 
 
 class MechanismCore(CoreSystem):
@@ -104,17 +104,17 @@ class MechanismCore(CoreSystem):
         sizes = law_sizes(self.tables)
         owner = LawOwner(self._law, sizes)
         # Written terms have the laws in them, and leave them to measures.
-        compiled = (ffi.NULL, None) if self._has_written_terms else compiled_table(self._law, sizes)
-        mine = self._with_data(ffi.new_handle(owner), self._numbers, compiled)
+        programs = (ffi.NULL, None) if self._has_written_terms else table_of_programs(self._law, sizes)
+        mine = self._with_data(ffi.new_handle(owner), self._numbers, programs)
         mine._owner = owner
         return mine
 
-    def _with_data(self, handle: Any, numbers: Any, compiled: tuple[Any, Any] = (ffi.NULL, None)) -> MechanismCore:
+    def _with_data(self, handle: Any, numbers: Any, programs: tuple[Any, Any] = (ffi.NULL, None)) -> MechanismCore:
         mine = copy.copy(self)
         data = ffi.new("char[]", self._function("data_size")())
-        self._function("with")(self._mechanism, handle, compiled[0], numbers, data)
+        self._function("with")(self._mechanism, handle, programs[0], numbers, data)
         mine.c = ffi.new("zd_system *", self.c[0])
-        mine.c.data, mine._data, mine._numbers = data, (*self._data, handle, *compiled, numbers, data), numbers
+        mine.c.data, mine._data, mine._numbers = data, (*self._data, handle, *programs, numbers, data), numbers
         return mine
 
     def many_bodies(self) -> Any:
@@ -129,11 +129,11 @@ class MechanismCore(CoreSystem):
 
     @property
     def calls_python(self) -> bool:
-        """True if the mechanism has user functions that are not compiled, and terms that call them."""
+        """True if the mechanism has user functions that are callables, and terms that call them."""
         laws: Any = self._law
         if laws is None or self._has_written_terms:
             return False
-        return not hasattr(laws, "compiled") or not all(laws.compiled(law_sizes(self.tables)))
+        return not hasattr(laws, "programs") or not all(laws.programs(law_sizes(self.tables)))
 
     @property
     def error(self) -> BaseException | None:

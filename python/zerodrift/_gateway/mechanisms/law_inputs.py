@@ -11,7 +11,7 @@ from ..._core import ffi
 from ..base import doubles
 from ..inputs import Bound, Place
 from .element_tables import law_sizes
-from .law_owner import LawOwner, compiled_table
+from .law_owner import LawOwner, table_of_programs
 
 
 class WrittenInputs(NamedTuple):
@@ -26,7 +26,7 @@ def bound(core: Any, names: Sequence[str]) -> Bound:
     """The core's system of a mechanism for one run, with the places of its inputs."""
     written, laws, sizes = core.written_inputs, core._law, law_sizes(core.tables)
     owner = LawOwner(laws, sizes)
-    found = (ffi.NULL, None) if core._has_written_terms else compiled_table(laws, sizes)
+    found = (ffi.NULL, None) if core._has_written_terms else table_of_programs(laws, sizes)
     numbers, pointer = None, core._numbers
     if written is not None:
         numbers = written.numbers.copy()

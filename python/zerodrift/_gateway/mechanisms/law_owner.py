@@ -1,4 +1,4 @@
-"""User functions of mechanisms: calls of Python functions by the core with their errors stored, and compiled functions."""
+"""User functions of mechanisms: calls of Python functions by the core with their errors stored, and expressions as programs."""
 
 from __future__ import annotations
 
@@ -52,20 +52,19 @@ class LawOwner:
         return DONE
 
 
-def compiled_table(law: Law, sizes: dict[int, tuple[int, int]]) -> Any:
-    """The core's array of compiled user functions, NULL if there are none, and the memory to keep with it.
+def table_of_programs(law: Law, sizes: dict[int, tuple[int, int]]) -> Any:
+    """The core's array of user functions that are expressions, NULL if there are none, and the memory to keep with it.
 
-    Where `law` has a method `compiled`, this gives for each law the address of a `zd_law_function`, its numbers, and the library
-    that it lives in; or None.
+    Where `law` has a method `programs`, this gives for each law a `zd_expressions` with what it refers to, and its numbers; or
+    None.
     """
-    found = law.compiled(sizes) if hasattr(law, "compiled") else []
+    found = law.programs(sizes) if hasattr(law, "programs") else []
     if not any(found):
         return ffi.NULL, None
     arrays = [each and each[1].copy() for each in found]      # inputs are written into those of one run
     kept = [array if array is None else doubles(array, array.size) for array in arrays]
-    rows = [(ffi.cast("zd_law_function *", each[0]), numbers) if each else (ffi.NULL, ffi.NULL)
-            for each, numbers in zip(found, kept, strict=True)]
-    return ffi.new("zd_compiled_law[]", rows), (kept, found)
+    rows = [(each[0][0], numbers) if each else (ffi.NULL, ffi.NULL) for each, numbers in zip(found, kept, strict=True)]
+    return ffi.new("zd_law_program[]", rows), (kept, found)
 
 
 @ffi.def_extern(error=lib.ZD_CALLBACK)

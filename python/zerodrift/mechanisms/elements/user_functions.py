@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from ... import _check
-from ..._gateway.inputs import EFFORT_LAW, SPEED_LAW
 from ...errors import WrongType, WrongValue
 from ...laws.table import recognised
 from ...symbolics.graph.smoothness import is_plain_expression
@@ -163,10 +162,15 @@ class Law:
         return self.inner_expression is not None
 
     def check_written(self) -> None:
-        """Check that code can be generated: a callable's computation is known to Python only."""
-        if self._function is not None and not hasattr(self._function, "written"):
+        """Check that code can be generated."""
+        if not self.has_nodes:
             raise WrongValue(f"{self.what} is a callable, which compiled=True cannot write out: give a SymPy expression in its "
                              "place, or take compiled=False", "not-portable")
+
+    @property
+    def has_nodes(self) -> bool:
+        """True if `written` gives its node: a callable's computation is known to Python only."""
+        return self._function is None or hasattr(self._function, "written")
 
     def written(self, equations: Any, x: Iterable[Any]) -> Any:
         """Node of its value, from the nodes x of its measures."""
@@ -194,7 +198,7 @@ class InputLaw:
     names: tuple[str, ...] = ()
     kind: tuple[Any, ...] = ()
     constant = expression = inner_expression = None
-    has_expression, is_plain = False, True
+    has_expression, is_plain, has_nodes = False, True, True
 
     def __init__(self, name: str, initial: float, *, is_speed: bool) -> None:
         self.what, self.input, self.initial, self.is_speed = f"input {name!r}", name, initial, is_speed
@@ -212,11 +216,6 @@ class InputLaw:
         """Numbers that it is computed from, by name: the input, and of a speed its rate and the time from which it counts."""
         more = {f"{self.input} rate": 0.0, f"{self.input} time": 0.0} if self.is_speed else {}
         return {self.input: self.initial, **more}
-
-    @property
-    def compiled(self) -> tuple[int, np.ndarray, Any]:
-        """Address of the core's function, and its numbers."""
-        return SPEED_LAW if self.is_speed else EFFORT_LAW, np.array(list(self.numbers.values())), None
 
     def check_written(self) -> None:
         """Code can be generated."""

@@ -10,7 +10,7 @@ import numpy as np
 from ...errors import WrongValue
 from ...systems.autodiff import Jet
 from ..elements.user_functions import Law
-from . import function_code
+from . import function_programs
 
 
 class Call:
@@ -113,7 +113,7 @@ class Laws:
 
     def __init__(self) -> None:
         self.rows: list[Any] = []       # of Call
-        self._compiled: list[Any] = []
+        self._programs: list[Any] = []
 
     def add(self, row: Call) -> int:
         """Index under which the core calls it."""
@@ -126,11 +126,11 @@ class Laws:
             raise WrongValue(f"{law.what} must be finite, with its derivatives, at t = {t:g}", "not-finite")
         return values
 
-    def compiled(self, sizes: Mapping[int, tuple[int, int]]) -> list[Any]:
-        """Result of `function_code.compiled` for each user function; `sizes` has the number of its marker quantities."""
-        if len(self._compiled) != len(self.rows):
-            self._compiled = [function_code.compiled(row, sizes[i][0]) for i, row in enumerate(self.rows)]
-        return self._compiled
+    def programs(self, sizes: Mapping[int, tuple[int, int]]) -> list[Any]:
+        """Result of `function_programs.program` for each user function; `sizes` has the number of its marker quantities."""
+        if len(self._programs) != len(self.rows):
+            self._programs = [function_programs.program(row, sizes[i][0]) for i, row in enumerate(self.rows)]
+        return self._programs
 
     def check_written(self) -> None:
         """Check that code can be generated for all of them: they must not be callables."""

@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 
 from ... import _gateway
+from ..._gateway.compiled import programs
 from ..._gateway.compiled.precise import Precise
 from ..._gateway.mechanisms import space_plans
 from ..._gateway.mechanisms.compiled_terms import WrittenTerms, with_functions
@@ -70,6 +71,10 @@ class Written:
         The mechanism's own.
     name : str
         For a warning.
+    compiles : bool
+        False: no code is compiled, and closed-form functions are programs that the core runs.
+    has_inputs : bool
+        True: some of the parameters change within a run.
 
     Attributes
     ----------
@@ -81,10 +86,11 @@ class Written:
         The name of the code: two mechanisms of the same differ in numbers alone.
     """
 
-    def __init__(self, core: MechanismCore | SpaceCore, laws: Laws, parameters: dict[str, float], name: str) -> None:
+    def __init__(self, core: MechanismCore | SpaceCore, laws: Laws, parameters: dict[str, float], name: str,
+                 *, compiles: bool = True, has_inputs: bool = False) -> None:
         self._interpreted, self._sizes = core, (core.nq, core.nv, core.mh, core.mn)
         is_in_space = isinstance(core, SpaceCore)
-        self._has_terms = not is_in_space or core.packing is None
+        self._has_terms = compiles and (not is_in_space or core.packing is None)
         reader = _reader(laws)
         number = nodes.Numbering(reader.graph)
         room, planned = (space_nodes, space_plans.plan_of) if is_in_space else (nodes, plan_of)
@@ -92,12 +98,13 @@ class Written:
         self._index = {key: len(number.values) + i for i, key in enumerate(parameters)}
         own = {key: number.new(value) for key, value in parameters.items()}
         self._values, self._frames = np.array(number.values), room.frames_of(plan)
+        self._inputs = range(len(number.values) - len(own), len(number.values)) if has_inputs else range(0)
         self.key = kept.digest_of(_writing_code(isinstance(reader, Plain)), repr(plan), repr(own), self._sizes,
-                                  core.packing is None, _described(laws.rows))
+                                  core.packing is None, _described(laws.rows), compiles)
         self._code = _kept_code(self.key) or self._derive(lambda: room.Equations(plan, reader, self._sizes, laws, own))
         self._library = shared_library.library(self._code.c_source) if self._has_terms else None
-        self.is_compiled = self._library is not None or (not self._has_terms and compilers.find() is not None)
-        if not self.is_compiled:
+        self.is_compiled = self._library is not None or (compiles and not self._has_terms and compilers.find() is not None)
+        if compiles and not self.is_compiled:
             warnings.warn(f"there is no C compiler (looked for {compilers.looked_for()}): the tables of {name} are interpreted",
                           NoCompilerWarning, stacklevel=6)
         program = FOLLOWED if core.c.followers else self._code.program
@@ -157,7 +164,7 @@ class Written:
         numbers.flags.writeable = False
         rates = jacobian and _gateway.address_of(jacobian, JacobianFunctions.symbol)
         coefficients = series and _gateway.address_of(series, SeriesFunctions.symbol)
-        core = with_functions(self._interpreted, numbers, [*libraries, jacobian, series], terms=terms, closed_form=address,
+        core = with_functions(self._interpreted, numbers, [*libraries, jacobian, series], terms=terms, closed_forms=address,
                               jacobian=rates, series=coefficients)
         derive = zip(libraries, ("zd_symbolic_constants", f"{CLOSED_FORM}_constants"), strict=False)
         core.written_inputs = WrittenInputs(numbers, self._index, [_gateway.address_of(*each) for each in derive if each[0]])
@@ -190,7 +197,18 @@ class Written:
     def closed_form_functions(self, p0: np.ndarray | None, is_length: np.ndarray) -> ClosedFormFunctions:
         """Closed-form functions, with elimination orders for these numbers and the start p0."""
         return ClosedFormFunctions(self._code.program, self._sizes, self._values, p0, is_length,
-                               len(self._values) + self._code.constants, CLOSED_FORM_DATA)
+                               len(self._values) + self._code.constants, CLOSED_FORM_DATA, inputs=self._inputs)
+
+    def with_programs(self, closed_form: ClosedFormFunctions, embeds: bool) -> MechanismCore | SpaceCore:
+        """Core system with closed-form functions as programs, if there are any; otherwise the core system."""
+        found = closed_form.programs
+        if found is None:
+            return self.core
+        forms, keep = programs.closed_forms(*found, self._sizes, embeds)
+        numbers = programs.constants(found[0], self._values)
+        core = with_functions(self._interpreted, numbers, (forms, keep), closed_forms=forms)
+        core.written_inputs = WrittenInputs(numbers, self._index, [])
+        return core
 
     def with_closed_form(self, closed_form: ClosedFormFunctions, vector: str) -> MechanismCore | SpaceCore:
         """Core system with closed-form functions for a vector unit, if these can be generated; otherwise the core system."""

@@ -38,6 +38,7 @@ ABSOLUTE = {2: (3300.0, 4.7, 29.0, 180.0, 460.0, 250.0, 67.0, 120.0, 840.0),
             3: (3500.0, 4.9, 10.8, 270.0, 730.0, 560.0, 340.0, 55.0, 2150.0)}
 NANOSECONDS = 0.39      # duration of an operation in that measurement
 SAVED = 0.5             # of that by compiled equations: small mechanisms take two thirds of the count, code a fifth of these
+INSTRUCTION, OF_CODE = 1.2, 0.3     # nanoseconds of an instruction of a program, and the part of it that code takes
 MAX_HINGED = 200       # bodies, at most, for which the core has terms from sines and cosines alone, if all have hinges
 GOOD, MAX_LOST = 2.0**-3, 20.0     # smallest pivot without extra cost; lost binary digits counted below it
 REDUNDANT = 1e-12       # smallest pivot of redundant constraints, and their factor of the cost, for few and for many constraints
@@ -178,6 +179,11 @@ def seconds(operations: float) -> float:
 def saved(operations: float, steps: float) -> float:
     """Approximate time in s that compiled equations save in so many corrected steps of "rk4", each of so many operations."""
     return SAVED * seconds(operations) * steps
+
+
+def saved_from_programs(instructions: float, steps: float) -> float:
+    """The same, in s, where a step runs so many instructions of programs."""
+    return (1 - OF_CODE) * INSTRUCTION * 1e-9 * instructions * steps
 
 
 def of_a_step(found: Cost) -> str:

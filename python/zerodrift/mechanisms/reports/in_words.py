@@ -29,7 +29,6 @@ MANY = 32       # joint coordinates: their cost is reported only from this numbe
 SMALL_SIZE = 30         # velocities and constraints up to which generated code is known to pay
 FEWEST_STEPS = 10_000   # of a run that may gain by compiling: no system of that size takes a millisecond for a step
 WORTH_COMPILING = 5.0   # s that a run must gain: compiling takes one or two
-INTERPRETED = "tables are interpreted; m.system(compiled=True) saves about"
 
 
 class Reported(BaseSystem):
@@ -43,6 +42,7 @@ class Reported(BaseSystem):
     _interpreted: Any                   # core of these
     _start: Starting
     _is_written_out: Any
+    _instructions: Any                  # of the programs of a corrected step of "rk4"; 0: there are none
     start_at: Any
 
     def _check_written(self) -> None: ...
@@ -64,22 +64,36 @@ class Reported(BaseSystem):
     def _gains_by_compiling(self, steps: int) -> bool:
         """True if a run of so many fixed steps saves more than compiling takes, and ZERODRIFT_COMPILE is not 0."""
         is_long = steps >= FEWEST_STEPS and os.environ.get("ZERODRIFT_COMPILE") != "0"
-        is_worth = is_long and cost.saved(self._operations, steps) >= WORTH_COMPILING
-        return is_worth and (self._why_interpreted(steps) or "").startswith(INTERPRETED)
+        is_worth = is_long and self._why_not_compiled() is None and self._saved(steps) >= WORTH_COMPILING
+        return is_worth and compilers.find() is not None
 
-    def _why_interpreted(self, steps: float) -> str | None:
-        """Reason why equations are interpreted, with what code saves in so many steps of "rk4"; None: they have no code."""
-        is_served = self.layout == "joint" or self._drawing.dimension == 2
-        if not is_served or max(self.nv, self.m) > SMALL_SIZE:
-            return None
+    def _saved(self, steps: float) -> float:
+        """Approximate time in s that compiled equations save in so many corrected steps of "rk4"."""
+        instructions = self._instructions()
+        return cost.saved_from_programs(instructions, steps) if instructions else cost.saved(self._operations, steps)
+
+    @property
+    def _can_be_eliminated(self) -> bool:
+        """True if the mechanism is small, and its coordinates such that closed forms are known to pay."""
+        return (self.layout == "joint" or self._drawing.dimension == 2) and 0 < max(self.nv, self.m) <= SMALL_SIZE
+
+    def _why_not_compiled(self) -> str | None:
+        """Reason why equations cannot be compiled; "": the mechanism is too large for that to pay; None: they can be."""
+        if not self._can_be_eliminated:
+            return ""
         try:
             self._check_written()
         except WrongValue as error:
             return sentence(error)
-        saved = float(f"{cost.saved(self._operations, steps):.1g}")     # digits that the count has
+        return None
+
+    def _why_interpreted(self, steps: float) -> str | None:
+        if self._is_written_out or self._why_not_compiled() is not None:
+            return None
+        saved = float(f"{self._saved(steps):.1g}")     # digits that the count has
         if saved >= WORTH_COMPILING and compilers.find() is None:
             return NO_COMPILER
-        return f"{INTERPRETED} {cost.in_words(saved)} of such a run"
+        return f"m.system(compiled=True) saves about {cost.in_words(saved)} of such a run"
 
     def _advice(self, error: Exception) -> str | None:
         """Advice for a singular start, or None."""

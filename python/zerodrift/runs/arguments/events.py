@@ -97,16 +97,15 @@ class Event:
 
 def _expression(name: str, what: Any, system: BaseSystem, of: dict[str, Any],
                 level: float) -> tuple[Callable[..., float] | None, _gateway.KnownEvent | None]:
-    """The function that an expression is: one of Python, or where there is a compiler, one that the core knows."""
-    from ...symbolics.compile import scalar_function  # slow to import, as SymPy is
-    from . import expressions
+    """The function that an expression is: one that the core knows, or else one of Python."""
+    from . import expressions  # slow to import, as SymPy is
 
     found = expressions.read(name, what, system, of, is_dynamic=True)
-    compiled = scalar_function.compiled(name, found.expression, found.atoms) if found.readings else None
-    if compiled is None:
+    program = expressions.program(name, found) if found.readings else None
+    if program is None:
         value = expressions.in_python(found)
         return lambda t, p, v, x: value(*x) - level, _called(found.readings, level)
-    return None, _gateway.KnownEvent(tuple(found.readings), level, compiled, found.parameters)
+    return None, _gateway.KnownEvent(tuple(program[1]), level, program[0], found.parameters)
 
 
 def _called(readings: list[Reading], level: float) -> _gateway.KnownEvent | None:

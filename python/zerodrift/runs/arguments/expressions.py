@@ -1,4 +1,4 @@
-"""SymPy expressions of the motion: what they are functions of, and the functions that they are compiled to."""
+"""SymPy expressions of the motion: what they are functions of, and the programs that compute them."""
 
 from __future__ import annotations
 
@@ -8,8 +8,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ... import _gateway
+from ..._gateway.compiled import programs
 from ..._gateway.known_events import NUMBER, TIME, VELOCITY, Reading
 from ...errors import WrongValue
+from ...symbolics.elimination.steps import Unwritten
+from ...symbolics.emit import program_writer
+from ...symbolics.graph.from_sympy import Reader
+from ...symbolics.graph.lowering import Lowering
 from ...systems.base import BaseSystem, core_of
 
 
@@ -69,8 +74,33 @@ def _rate(what: str, derivative: Any, system: BaseSystem) -> Reading:
     return Reading(VELOCITY, coordinates.index(name))
 
 
+def program(what: str, of: Read) -> tuple[tuple[Any, Any], list[Reading]] | None:
+    """A `zd_expressions` of the readings with what it refers to, and its readings; None: the core lacks a function.
+
+    Raises
+    ------
+    ValueError
+        If there is anything else in the expression; `what` it is, is named.
+    """
+    key = of.expression, *of.atoms
+    if key not in _programs:
+        reader = Reader()
+        node = reader.read(what, of.expression, {atom: reader.graph.leaf("parameter", i) for i, atom in enumerate(of.atoms)})
+        lowering = Lowering(reader.graph)
+        try:
+            written = program_writer.expressions(lowering, [lowering.lower(node)], len(of.atoms))
+        except Unwritten:
+            return None
+        _programs[key] = programs.expressions(written, len(of.atoms)), written.literals
+    found, literals = _programs[key]
+    return found, [*of.readings, *(Reading(NUMBER, number=each) for each in literals)]
+
+
+_programs: dict[tuple[Any, ...], tuple[Any, list[float]]] = {}    # by expression and atoms
+
+
 def in_python(of: Read) -> Callable[..., float]:
-    """Python function of the readings for an expression, where no compiler is installed."""
+    """Python function of the readings for an expression with a function that the core lacks."""
     import sympy
 
     function = sympy.lambdify(of.atoms, of.expression, "math")

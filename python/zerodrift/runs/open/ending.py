@@ -75,14 +75,15 @@ def _arrays_and_stats(record: _gateway.Record, results: _gateway.Results, second
 
 
 def with_reason(stats: dict[str, Any], system: BaseSystem, chosen: dict[str, Any]) -> dict[str, Any]:
-    """Statistics of a run with the reason why no step used the closed form."""
-    return stats | {"matrix_path_reason": _matrix_path_reason(system, chosen, stats)}
+    """Statistics of a run with the reason why no step used the closed form, and why equations were interpreted."""
+    return stats | {"matrix_path_reason": _matrix_path_reason(system, chosen, stats),
+                    "interpreted": system._why_interpreted(stats["evaluations"] / EVALUATIONS)}
 
 
 def _matrix_path_reason(system: BaseSystem, settings: dict[str, Any], stats: dict[str, Any]) -> str | None:
     """Reason why no step used the closed form; None if some did, or if systems of this kind have no closed form."""
     translated, core = core_settings((0.0, 0.0), settings), core_of(system)
-    lacks = system._why_no_closed_form(_gateway.takes_embeddings(translated), stats["evaluations"] / EVALUATIONS)
+    lacks = system._why_no_closed_form(_gateway.takes_embeddings(translated))
     if stats["closed_form_steps"] or not stats["steps"] or lacks is None:
         return None
     if settings["closed_form"] is False:

@@ -36,7 +36,7 @@ class ManyRuns:
     Each has the bits that it has alone, except the last bits of the built-in pendulum and knife edge in lanes. They execute in
     one thread per available processor if the system does not call Python; and in SIMD lanes, as many at once as a vector of the
     processor has numbers, with fixed steps of a Runge-Kutta method if the system has closed-form functions: those of
-    ``zd.systems``, symbolic ones, and ``mechanism.system(compiled=True)``. Steps that lanes cannot make, those near a
+    ``zd.systems``, symbolic ones, and small mechanisms. Steps that lanes cannot make, those near a
     singularity or so long that constraints reverse, are made individually.
 
     Parameters

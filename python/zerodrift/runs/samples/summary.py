@@ -49,11 +49,13 @@ def summary(solution: Any) -> str:
 
 
 def _evaluation(stats: dict[str, Any]) -> list[str]:
+    interpreted, reason = stats.get("interpreted"), stats.get("matrix_path_reason")
+    more = f"; {interpreted}" if interpreted else ""
     if stats.get("closed_form_steps"):
         left = stats["steps"] - stats["closed_form_steps"]
-        return ["  evaluation  closed form" + (f" ({left} of {stats['steps']} steps by matrices)" if left else "")]
-    reason = stats.get("matrix_path_reason")
-    return [f"  evaluation  matrices, no closed form: {reason}"] if reason else []
+        return ["  evaluation  closed form" + (" by tables" if more else "") +
+                (f" ({left} of {stats['steps']} steps by matrices)" if left else "") + more]
+    return [f"  evaluation  matrices, no closed form: {reason}{more}"] if reason else []
 
 
 def _duration(seconds: float) -> str:

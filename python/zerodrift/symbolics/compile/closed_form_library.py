@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ctypes
-from functools import cache
+from collections.abc import Sequence
+from functools import cache, cached_property
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,8 @@ from typing import Any
 import numpy as np
 
 from ..._gateway import VERSION
+from ..elimination.steps import Order, Solve
+from ..emit.program_writer import Part, Programs
 from ..graph.plain_functions import NAMED
 from . import cache as kept
 from . import shared_library
@@ -28,7 +31,9 @@ class ClosedFormFunctions:
     """
 
     def __init__(self, program: Any, sizes: tuple[int, int, int, int], values: np.ndarray,
-                 p0: np.ndarray | None, is_length: np.ndarray, offset: int, data: str = "data", embeds: bool = False) -> None:
+                 p0: np.ndarray | None, is_length: np.ndarray, offset: int, data: str = "data", embeds: bool = False,
+                 inputs: Sequence[int] = ()) -> None:
+        self._inputs = inputs       # parameters that change within a run: programs compute what depends on them
         self._definition = program, sizes, values, p0, is_length
         self._embeds = embeds       # True: for formulations in independent velocities
         self._others: ClosedFormFunctions | None = None
@@ -42,7 +47,7 @@ class ClosedFormFunctions:
     def embedding(self) -> ClosedFormFunctions:
         """Closed-form functions for formulations in independent velocities."""
         if self._others is None:
-            self._others = ClosedFormFunctions(*self._definition, self._offset, self._data, embeds=True)
+            self._others = ClosedFormFunctions(*self._definition, self._offset, self._data, embeds=True, inputs=self._inputs)
         return self._others
 
     def prepare(self) -> None:
@@ -62,16 +67,44 @@ class ClosedFormFunctions:
             self._is_written = True
         return self._written
 
-    def _key(self) -> str:
-        """Key of the source in the cache: a digest of all data that it depends on."""
+    @cached_property
+    def programs(self) -> tuple[Programs, list[Order]] | None:
+        """Programs of the functions, and their orders of elimination; None: there are none."""
+        if self.why_none:
+            return None
+        key = self._key("programs")
+        found = kept.read(key, dict)
+        if found is None:
+            found = self._programs_anew()
+            kept.write(key, found)
+        self.why_none = found["why"]
+        if self.why_none:
+            return None
+        written = Programs(*found["programs"])
+        functions = [{name: [Part(*part) for part in parts] for name, parts in of.items()} for of in written.functions]
+        return written._replace(functions=functions), [tuple(Solve(*each) for each in order) for order in found["orders"]]
+
+    def _programs_anew(self) -> dict[str, Any]:
+        from ..elimination.steps import Unwritten
+        from ..emit import closed_form, program_writer
+        program, sizes, values, p0, is_length = self._definition
+        try:
+            lowering, functions, eliminations = closed_form.eliminated(program, sizes, values, p0, is_length, (self._embeds,))
+            written = program_writer.programs(lowering, functions, sizes, len(values), self._inputs)
+        except Unwritten as reason:
+            return {"why": str(reason)}
+        return {"programs": written, "orders": [each.order for each in eliminations], "why": ""}
+
+    def _key(self, what: str = "closed-form functions") -> str:
+        """Key of the source or of the programs in the cache: a digest of all data that they depend on."""
         from ..emit import closed_form_writer
 
         program, sizes, values, p0, is_length = self._definition
         calls = {operation[1] for operation in program["operations"] if operation[0] == "call"}
         limits = closed_form_writer.MAX_OPERATIONS, closed_form_writer.MAX_STATEMENTS
-        return kept.digest_of("closed-form functions", _writing_code(calls <= set(NAMED)), limits, program, sizes,
-                              values.tolist(),
-                              None if p0 is None else p0.tolist(), is_length.tolist(), self._offset, self._data, self._embeds)
+        return kept.digest_of(what, _writing_code(calls <= set(NAMED)), limits, program, sizes, values.tolist(),
+                              None if p0 is None else p0.tolist(), is_length.tolist(), self._offset, self._data, self._embeds,
+                              [*self._inputs])
 
     def _written_anew(self) -> dict[str, Any]:
         from ..elimination.steps import Unwritten
@@ -117,7 +150,8 @@ class ClosedFormFunctions:
         return self._libraries.get(sets)
 
     def __getstate__(self) -> dict[str, Any]:
-        self._write()
+        if "programs" not in vars(self):
+            self._write()
         return vars(self) | {"_libraries": {}, "_interface": VERSION}
 
     def __setstate__(self, state: dict[str, Any]) -> None:

@@ -10,18 +10,18 @@ consecutive ones.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import combinations
 
 import numpy as np
 
-from ..graph import numpy_evaluation
-from ..graph.lowering import Lowering
 from .steps import Order, Solve, Unwritten
 
+Evaluate = Callable[[np.ndarray, np.ndarray], dict[str, np.ndarray]]
 MOST = 4                # orders, as the interface has it
 SAMPLES = 384
 ITERATIONS = 12         # of Newton's method
+REGULARIZATION = 1e-12  # in parts of the trace of C C^T: added to its diagonal
 CLOSED = 1e-9           # in parts of its row: a violation that is none
 DETERMINANTS = {1: 0.5, 2: 0.1, 3: 0.05}      # of a determinant of so many rows, in parts of the largest entries of these
 USABLE = {size: share / 4 for size, share in DETERMINANTS.items()}      # a step may begin with 2^-3: csrc/step_limits.h
@@ -29,12 +29,14 @@ TRIPLES = 9             # rows and columns up to which three at a time are tried
 SPREADS = (0.2, 0.7, 2.0)       # of configurations around the start, in rad or parts of the mechanism's length
 
 
-def choose(lowering: Lowering, terms: dict[str, list[int]], sizes: tuple[int, int, int, int], parameters: np.ndarray,
-           p0: np.ndarray | None, lengths: np.ndarray, embeds: bool = False) -> list[Order]:
+def choose(evaluate: Evaluate, sizes: tuple[int, int, int, int], p0: np.ndarray | None, lengths: np.ndarray,
+           embeds: bool = False) -> list[Order]:
     """The orders to be written, best first; raises `Unwritten` where no order serves the start.
 
     Parameters
     ----------
+    evaluate : callable
+        A, if it is not the identity, Phi and C by name, each (k, size), at t (k,) and p (k, nq).
     embeds : bool
         True: the orders are for formulations in independent velocities, and each is for another set of these.
     lengths : ndarray (nq + nv,) of bool
@@ -47,10 +49,7 @@ def choose(lowering: Lowering, terms: dict[str, list[int]], sizes: tuple[int, in
         return [()]
     if m > sizes[1]:
         raise Unwritten("there are more constraints than velocities")
-    try:
-        C = _configurations(lowering, terms, sizes, parameters, p0, lengths)
-    except numpy_evaluation.Unknown as unknown:
-        raise Unwritten(f"NumPy has no function {unknown}") from None
+    C = _configurations(evaluate, sizes, p0, lengths)
     orders = _for_sets(C) if embeds else _for_places(C / _largest(C))
     if not orders:
         raise Unwritten("constraints depend on each other at the start, or nearly")
@@ -105,8 +104,8 @@ def _dependent(C: np.ndarray) -> np.ndarray:
     return found
 
 
-def _configurations(lowering: Lowering, terms: dict[str, list[int]], sizes: tuple[int, int, int, int], parameters: np.ndarray,
-                    p0: np.ndarray | None, lengths: np.ndarray) -> np.ndarray:
+def _configurations(evaluate: Evaluate, sizes: tuple[int, int, int, int], p0: np.ndarray | None,
+                    lengths: np.ndarray) -> np.ndarray:
     """C (k, m, nv) in characteristic scales, at the start and at random configurations around it."""
     nq, nv, mh, _ = sizes
     chance = np.random.default_rng(20)
@@ -116,8 +115,6 @@ def _configurations(lowering: Lowering, terms: dict[str, list[int]], sizes: tupl
     t = np.concatenate([[0.0], chance.uniform(0, 10, SAMPLES)])
     spread = np.repeat(SPREADS, SAMPLES // len(SPREADS))[:, None]
     p = start + np.concatenate([np.zeros((1, nq)), spread * chance.uniform(-1, 1, (SAMPLES, nq))]) * unit_p
-    names = [name for name in ("A", "Phi", "C") if name in terms]
-    evaluate = numpy_evaluation.evaluator(lowering, {name: terms[name] for name in names}, parameters)
     found = evaluate(t, p)
     is_open = _open(found, mh, unit_v)
     for _ in range(ITERATIONS if mh else 0):
@@ -144,7 +141,9 @@ def _newton(found: dict[str, np.ndarray], sizes: tuple[int, int, int, int]) -> n
     nq, nv, mh, _ = sizes
     k = len(found["Phi"])
     C = np.nan_to_num(found["C"].reshape(k, -1, nv)[:, :mh])
-    w = (np.linalg.pinv(C, rcond=1e-6) @ np.nan_to_num(found["Phi"])[:, :, None])[:, :, 0]
+    CCt = C @ C.swapaxes(1, 2)
+    CCt += REGULARIZATION * (np.trace(CCt, axis1=1, axis2=2)[:, None, None] + 1.0) * np.eye(mh)   # for dependent rows
+    w = (C.swapaxes(1, 2) @ np.linalg.solve(CCt, np.nan_to_num(found["Phi"])[:, :, None]))[:, :, 0]
     return (found["A"].reshape(k, nq, nv) @ w[:, :, None])[:, :, 0] if "A" in found else w
 
 

@@ -13,7 +13,7 @@ from ..elimination.steps import Elimination
 from ..graph.lowering import Lowering
 from ..graph.plain_functions import NAMED, Function, Plain
 from ..graph.reemit import restored
-from . import closed_form_writer
+from . import closed_form_writer, program_writer
 from .closed_form_writer import Bounded
 from .writers import mathematics
 
@@ -68,14 +68,24 @@ def write(program: dict[str, Any], sizes: tuple[int, int, int, int], parameters:
 
     They are for formulations in dependent velocities, or in independent ones where that is among `embeds`.
     """
-    lowering = Bounded(Plain().graph)
-    terms = restored(lowering, program["operations"], program["terms"], _function)
-    eliminations, functions = [], []
-    for embedding in embeds:
-        chosen = pivot_orders.choose(lowering, terms, sizes, parameters, p0, lengths, embedding)
-        found = [elimination(lowering, terms, sizes, order) for order in chosen]
-        functions += [(_embedding if embedding else _projecting)(each) for each in found]
-        eliminations += found
+    lowering, functions, eliminations = eliminated(program, sizes, parameters, p0, lengths, embeds)
     return closed_form_writer.source(lowering, functions, eliminations, offset=offset, symbol=symbol,
                                   heading=heading or [*HEADING, mathematics(lowering.operations), *VERSION], file=file,
                                   lanes_header=lanes_header, data=data)
+
+
+def eliminated(program: dict[str, Any], sizes: tuple[int, int, int, int], parameters: np.ndarray, p0: np.ndarray | None,
+               lengths: np.ndarray, embeds: Sequence[bool] = (False,)) -> tuple[
+                   Lowering, list[dict[str, dict[str, list[int]]]], list[Elimination]]:
+    """Operations, the outputs of the functions of each order, and the orders; raises `Unwritten` where no order serves."""
+    lowering = Bounded(Plain().graph)
+    terms = restored(lowering, program["operations"], program["terms"], _function)
+    needed = {name: terms[name] for name in ("A", "Phi", "C") if name in terms}
+    evaluate = program_writer.evaluator(lowering, needed, parameters, sizes[0])
+    eliminations, functions = [], []
+    for embedding in embeds:
+        chosen = pivot_orders.choose(evaluate, sizes, p0, lengths, embedding)
+        found = [elimination(lowering, terms, sizes, order) for order in chosen]
+        functions += [(_embedding if embedding else _projecting)(each) for each in found]
+        eliminations += found
+    return lowering, functions, eliminations

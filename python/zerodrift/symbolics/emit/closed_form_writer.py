@@ -15,8 +15,8 @@ from .writers import CWriter, indented
 MAX_OPERATIONS = 4000      # of the functions of one order
 TOO_LARGE = f"they would take more than {MAX_OPERATIONS} operations"
 MAX_STATEMENTS = 1000      # of one function
-AT = ("ZD_ON_UNIT static int ZD_NAMED({name})(const void *data, const double *at_inputs, const double *at_time,"
-      " const double *at_p,")
+AT = ("ZD_ON_UNIT static int ZD_NAMED({name})(const zd_elimination *self, const void *data, const double *at_inputs,"
+      " const double *at_time, const double *at_p,")
 ACCELERATE = (AT, "    const double *at_v, const double *with_added, double *to_pdot, double *to_vdot, double *to_lambda,",
               "    double *to_power, double *to_pivots)")
 CORRECT = (AT, "    const double *at_v, double *to_Phi, double *to_dp, double *to_dv)")
@@ -44,7 +44,7 @@ class Bounded(Lowering):
 
 
 @dataclass
-class _Program:
+class Program:
     """Program of one function for a writer: its operations, and those whose values are stored with the parameters."""
 
     lowering: Lowering
@@ -86,7 +86,7 @@ def source(lowering: Lowering, functions: list[dict[str, dict[str, list[int]]]],
         for name, head in HEADS.items():
             if of.get(name):
                 signature = [line.format(name=f"{name}_{i}") for line in head]
-                program = _Program(lowering, of[name], stored)
+                program = Program(lowering, of[name], stored)
                 lines = (_finishing if name in FOR_ONE else _function)(program, signature, offset, data)
                 inside += ["", *(["#if ZD_LANES == 1", *lines, "#endif"] if "embed" in of or name in FOR_ONE else lines)]
     embed = [i for i, of in enumerate(functions) if "embed" in of]
@@ -108,7 +108,7 @@ def _constants(lowering: Lowering, functions: list[dict[str, dict[str, list[int]
     """Operations on parameters alone that functions need, and where each is stored."""
     found: list[int] = []
     for outputs in (each for of in functions for each in of.values() if each):
-        program = _Program(lowering, outputs, {})
+        program = Program(lowering, outputs, {})
         needed = program.needed(outputs)
         if len(needed) > MAX_OPERATIONS:
             raise Unwritten(TOO_LARGE)
@@ -126,7 +126,7 @@ def _is_constant(lowering: Lowering, number: int) -> bool:
 
 
 def _constants_function(lowering: Lowering, stored: dict[int, int], offset: int, symbol: str) -> list[str]:
-    program = _Program(lowering, {"constants": list(stored)}, {})
+    program = Program(lowering, {"constants": list(stored)}, {})
     numbers = [number for number in program.needed(program.outputs) if lowering.operations[number].code not in SIMPLE]
     program.stored = stored     # from here on: each is assigned to, once
     writer = CWriter(program)
@@ -139,20 +139,20 @@ def _constants_function(lowering: Lowering, stored: dict[int, int], offset: int,
             *indented(body or ["(void)k;"]), "}"]
 
 
-def _equations(program: _Program, names: Iterable[str]) -> list[str]:
+def _equations(program: Program, names: Iterable[str]) -> list[str]:
     """A comment that cites the equations of these outputs."""
     of = EQUATIONS_OF_EMBED if "D" in program.outputs else EQUATIONS
     cited = [f"{name} {of[name]}" for name in names if name in of and program.outputs.get(name)]
     return [f"/* {'; '.join(cited)} */"] if cited else []
 
 
-def _writer(program: _Program, offset: int) -> LaneWriter:
+def _writer(program: Program, offset: int) -> LaneWriter:
     writer = LaneWriter(program)
     writer.names |= {number: f"k[{offset + place}]" for number, place in program.stored.items()}
     return writer
 
 
-def _function(program: _Program, head: list[str], offset: int, data: str) -> list[str]:
+def _function(program: Program, head: list[str], offset: int, data: str) -> list[str]:
     writer = _writer(program, offset)
     first = [name for name in program.outputs if name not in (*OPTIONAL[0], *OPTIONAL[1])]
     done = program.needed(first)
@@ -168,7 +168,7 @@ def _whole(head: list[str], body: list[str]) -> list[str]:
     return [*head, "{", *indented([*body, "return ZD_DONE;"]), "}"]
 
 
-def _optional(program: _Program, writer: LaneWriter, done: list[int]) -> list[str]:
+def _optional(program: Program, writer: LaneWriter, done: list[int]) -> list[str]:
     """Statements that store optional outputs, each inside a check of its pointer."""
     body = []
     for group in OPTIONAL:
@@ -181,7 +181,7 @@ def _optional(program: _Program, writer: LaneWriter, done: list[int]) -> list[st
     return body
 
 
-def _finishing(program: _Program, head: list[str], offset: int, data: str) -> list[str]:
+def _finishing(program: Program, head: list[str], offset: int, data: str) -> list[str]:
     """Statements of `finish`: Phi first; if it is small, velocities are corrected and accelerations computed with them."""
     writer, outputs, lowering = _writer(program, offset), program.outputs, program.lowering
     done = program.needed(["Phi"])
@@ -202,14 +202,14 @@ def _finishing(program: _Program, head: list[str], offset: int, data: str) -> li
     return _whole(head, [*_locals(program, data), *body])
 
 
-def _further(program: _Program, writer: LaneWriter, done: list[int], names: list[str]) -> list[str]:
+def _further(program: Program, writer: LaneWriter, done: list[int], names: list[str]) -> list[str]:
     """Statements of the operations that these outputs need and that are not yet computed; marks them as computed."""
     more = _without(program.needed(names), done)
     done += more
     return _statements(writer, more)
 
 
-def _apart(program: _Program, writer: LaneWriter, done: list[int], names: list[str]) -> list[str]:
+def _apart(program: Program, writer: LaneWriter, done: list[int], names: list[str]) -> list[str]:
     """The same statements in a C block of their own, whose values are not visible after it."""
     known, turned = dict(writer.names), dict(writer.turned)
     lines = _further(program, writer, list(done), names)
@@ -229,7 +229,7 @@ def _statements(writer: LaneWriter, numbers: list[int]) -> list[str]:
                              "x{}".format)
 
 
-def _locals(program: _Program, data: str) -> list[str]:
+def _locals(program: Program, data: str) -> list[str]:
     used = [operation.arguments for number, operation in enumerate(program.lowering.operations)
             if operation.code == "leaf" and program.users[number]]
     finishes, embeds = ("Phi" in program.outputs and name in program.outputs for name in ("vdot", "D"))
@@ -241,7 +241,7 @@ def _locals(program: _Program, data: str) -> list[str]:
         ["pdot", "vdot", "lambda", "power", "pivots"] if "vdot" in program.outputs else ["dv"])
     lines = [f"const zd_stored *restrict const {name} = (const zd_stored *){of};" for name, of in inputs.items()]
     lines += [f"zd_stored *restrict const {name} = (zd_stored *)to_{name};" for name in outputs]
-    lines += ["const zd_real t = *time;", f"{', '.join(f'(void){name}' for name in ('t', *inputs, *outputs))};"]
+    lines += ["const zd_real t = *time;", f"{', '.join(f'(void){name}' for name in ('self', 't', *inputs, *outputs))};"]
     for kind, value in (("p", "p[{0}]"), ("before" if finishes else "v", "v[{0}]"),
                         ("added", "added ? (zd_real)added[{0}] : ZD_SPLAT(0.0)")):
         indices = (range(len(program.outputs["dv"])) if kind == "before" else
@@ -269,13 +269,14 @@ def _table(orders: list[Order], numbers: list[int]) -> list[str]:
     lines = ["#if ZD_LANES == 1", "#define ZD_FINISH(name) ZD_NAMED(name)", "#else", "#define ZD_FINISH(name) NULL", "#endif",
              "static const zd_elimination ZD_NAMED(orders)[] = {"]
     lines += [f"    {_head(orders, i)}, ZD_NAMED(accelerate_{i}), "
-              f"{f'ZD_NAMED(correct_{i}), ZD_FINISH(finish_{i})' if orders[i] else 'NULL, NULL'}, NULL}}," for i in numbers]
+              f"{f'ZD_NAMED(correct_{i}), ZD_FINISH(finish_{i})' if orders[i] else 'NULL, NULL'}, NULL, NULL}}," for i in numbers]
     return [*lines, "};", "#undef ZD_FINISH"]
 
 
 def _embedding_table(orders: list[Order], numbers: list[int]) -> list[str]:
     """Descriptors of the orders for formulations in independent velocities."""
-    lines = [f"    {_head(orders, i)}, NULL, {f'ZD_NAMED(correct_{i})' if orders[i] else 'NULL'}, NULL, ZD_NAMED(embed_{i})}},"
+    lines = [f"    {_head(orders, i)}, NULL, {f'ZD_NAMED(correct_{i})' if orders[i] else 'NULL'}, NULL, ZD_NAMED(embed_{i}),"
+             " NULL},"
              for i in numbers]
     head = ["#if ZD_LANES == 1", "static const zd_elimination ZD_NAMED(embeddings)[] = {"]
     return [*head, *lines, "};", "#endif"] if lines else []

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from ..graph.lowering import Operation
@@ -13,6 +13,16 @@ CONDITIONS = ("comparison", "logic")
 # The bits of zerodrift/units.h: sets of functions of a vector unit, for so many trajectories at once
 SETS = {(0, 1): "ZD_SET_BASELINE_1", (0, 2): "ZD_SET_BASELINE_2", (1, 1): "ZD_SET_AVX2_1", (1, 4): "ZD_SET_AVX2_4",
         (2, 1): "ZD_SET_AVX512_1", (2, 8): "ZD_SET_AVX512_8"}
+
+
+def products_in_sums(program: Any, uses: Sequence[int]) -> set[int]:
+    """Products of a program that are used once, in a sum, which are one instruction with it; one of each sum."""
+    operations, found = program.lowering.operations, set()
+    for number, (code, arguments, _) in enumerate(operations):
+        if code in ("+", "-") and program.users[number]:
+            found |= {*[each for each in arguments[::-1] if operations[each].code == "*" and uses[each] == 1
+                        and each not in program.stored][:1]}
+    return found
 
 
 class LaneWriter(CWriter):
@@ -28,7 +38,8 @@ class LaneWriter(CWriter):
 
     def __init__(self, blocks: Any) -> None:
         super().__init__(blocks)
-        self._factors: dict[int, tuple[str, str]] = {}      # of products that are written in place
+        self._in_sums = products_in_sums(blocks, self._uses)
+        self._factors: dict[int, tuple[str, str]] = {}      # of these
 
     def statements(self, numbers: list[int], name: Callable[[int], str], declare: str = REAL) -> list[str]:
         lines: list[str] = []
@@ -45,11 +56,12 @@ class LaneWriter(CWriter):
 
     def _statement(self, number: int, operation: Operation, name: str) -> list[str]:
         text = self.expression(operation)
+        if number in self._in_sums:
+            a, b = (unwrapped(self.value(factor)) for factor in operation.arguments)
+            self._factors[number] = a, b
+            return []
         if self._uses[number] == 1 and len(text) < LONGEST:
             self.names[number] = text
-            if operation.code == "*":
-                a, b = (unwrapped(self.value(factor)) for factor in operation.arguments)
-                self._factors[number] = a, b
             return []
         self.names[number] = name
         return [f"{CONDITION if operation.code in CONDITIONS else REAL}{name} = {unwrapped(text)};"]

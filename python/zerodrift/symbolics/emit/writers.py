@@ -35,18 +35,7 @@ class Writer:
         self.blocks, self.operations = blocks, blocks.lowering.operations
         self.names: dict[int, str] = {}
         self.turned: dict[int, str] = {}        # sines and cosines that are computed already, and what they are called
-        self._uses = self._count_uses()
-
-    def _count_uses(self) -> list[int]:
-        uses = [0] * len(self.operations)
-        for number, operation in enumerate(self.operations):
-            if self.blocks.users[number]:
-                for argument in self.blocks.lowering.operands(operation):
-                    uses[argument] += 1
-        for numbers in self.blocks.outputs.values():
-            for number in numbers:
-                uses[number] += 1
-        return uses
+        self._uses = count_uses(blocks)
 
     def value(self, number: int) -> str:
         """C or Python text of an operation's value: its name, or its expression if it is used only once."""
@@ -117,6 +106,19 @@ class Writer:
         from sympy import Symbol
 
         return _printer(self.language).doprint(function(*(Symbol(value, real=True) for value in values), evaluate=False))
+
+
+def count_uses(program: Any) -> list[int]:
+    """Number of times that each operation of a program is an operand or an output."""
+    uses = [0] * len(program.lowering.operations)
+    for number, operation in enumerate(program.lowering.operations):
+        if program.users[number]:
+            for argument in program.lowering.operands(operation):
+                uses[argument] += 1
+    for numbers in program.outputs.values():
+        for number in numbers:
+            uses[number] += 1
+    return uses
 
 
 def turn_of(function: Any) -> str:

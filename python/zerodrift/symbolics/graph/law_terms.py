@@ -1,19 +1,11 @@
-"""User functions given as expressions: compiled functions of time, measures, rates of measures, and parameters."""
+"""Terms of user functions of time, measures, rates of measures, and parameters, as nodes of a graph."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Any
 
-from ... import _gateway
-from ..emit.writers import CWriter, indented, unwrapped
-from ..graph.graph import Graph, Node
-from ..graph.lowering import Lowering
-from . import shared_library
-from .scalar_function import HEADING, Program, computed
-
-SYMBOL = "zd_symbolic_law"
-TAKES = "const double *k, double t, const double *p, const double *v, double *out"     # as `zd_law_function`
+from .graph import Graph, Node
 
 
 class Leaves:
@@ -39,25 +31,3 @@ class Leaves:
 
     def _slopes(self, node: Node, leaves: Sequence[Node]) -> list[Node]:
         return [self.graph.derivative_along({leaf: self.graph.one})(node) for leaf in leaves]
-
-
-class _LawWriter(CWriter):
-    """Writer of C99 in which measures and rates are array elements."""
-
-    state = "{kind}[{index}]"
-
-
-def compiled(graph: Graph, said: Sequence[Node]) -> tuple[int, Any] | None:
-    """Address of a compiled function that computes these terms, and its library; None without a compiler."""
-    library = shared_library.library(_source(graph, said), symbols=(SYMBOL,))
-    return None if library is None else (_gateway.address_of(library, SYMBOL), library)
-
-
-def _source(graph: Graph, said: Sequence[Node]) -> str:
-    lowering = Lowering(graph)
-    results = [lowering.lower(node) for node in said]
-    writer = _LawWriter(Program(lowering, results))
-    lines = computed(writer)
-    body = ["(void)k, (void)t, (void)p, (void)v;", *lines,
-            *(f"out[{i}] = {unwrapped(writer.value(result))};" for i, result in enumerate(results))]
-    return "\n".join([*HEADING, f"void {SYMBOL}({TAKES})", "{", *indented(body), "}", ""])
