@@ -1,4 +1,4 @@
-"""Types of arguments, for type checkers and editors, without a module at run time; written by tests/support/stubs.py."""
+"""Types of arguments, for type checkers and editors; written by tests/support/stubs.py."""
 
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike as _PathLike
@@ -7,12 +7,13 @@ from typing import Any, Literal, Protocol, TypedDict
 import numpy as np
 from numpy.typing import ArrayLike as ArrayLike
 
+from .mechanisms.elements.bodies import Point as Point
 from .mechanisms.elements.measures import Measure as Measure
 from .mechanisms.mechanism import Mechanism as Mechanism
 from .runs.arguments.events import Event
 from .runs.arguments.methods import RowSettings
 from .runs.open.control import Every
-from .runs.states.reading import Reading as Reading
+from .runs.states.instant import Reading as Reading
 from .systems.base import BaseSystem
 
 class Expression(Protocol):
@@ -29,6 +30,9 @@ EventLike = Event | Measure | str | Expression | Callable[[float, np.ndarray, np
 Events = EventLike | Sequence[EventLike]
 Inputs = MeasureLike | Sequence[MeasureLike] | Mapping[str, tuple[float, float] | None]
 LawLike = float | Expression | Callable[..., Any]
+UserFunction = Callable[..., Any]
+TermLike = ArrayLike | UserFunction
+Equations = Sequence[Expression] | Mapping[str, Expression]
 Bindings = Mapping[str, MeasureLike]
 Values = Mapping[str, ArrayLike] | Mapping[Measure, ArrayLike] | Mapping[MeasureLike, ArrayLike]
 Motions = Mapping[str, ArrayLike | LawLike] | Mapping[Measure, ArrayLike | LawLike] | Mapping[MeasureLike, ArrayLike | LawLike]
@@ -70,6 +74,19 @@ class SimulateSettings(Settings, total=False):
     save_to: PathLike | None
     progress: bool | Callable[[float], object]
     on_failure: Literal['raise', 'return']
+
+class ExploreOptions(SimulateSettings, total=False):
+    """Arguments of `simulate` and of `view`."""
+
+    step: float | None
+    t_eval: ArrayLike | None
+    events: Events | None
+    outputs: Measures | None
+    forces: bool | Sequence[Any]
+    path: str | Point | Sequence[str | Point]
+    graphs: MeasureLike | Measures
+    names: bool
+    speed: float | None
 
 class EnsembleOptions(Settings, total=False):
     """Arguments of `simulate` for the runs of an ensemble."""

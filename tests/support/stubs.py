@@ -16,7 +16,7 @@ from zerodrift.systems import builtin
 
 PACKAGE = Path(zd.__file__).parent
 WRITTEN = "written by tests/support/stubs.py."
-TYPES = f'''"""Types of arguments, for type checkers and editors, without a module at run time; {WRITTEN}"""
+TYPES = f'''"""Types of arguments, for type checkers and editors; {WRITTEN}"""
 
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike as _PathLike
@@ -25,12 +25,13 @@ from typing import Any, Literal, Protocol, TypedDict
 import numpy as np
 from numpy.typing import ArrayLike as ArrayLike
 
+from .mechanisms.elements.bodies import Point as Point
 from .mechanisms.elements.measures import Measure as Measure
 from .mechanisms.mechanism import Mechanism as Mechanism
 from .runs.arguments.events import Event
 from .runs.arguments.methods import RowSettings
 from .runs.open.control import Every
-from .runs.states.reading import Reading as Reading
+from .runs.states.instant import Reading as Reading
 from .systems.base import BaseSystem
 
 class Expression(Protocol):
@@ -47,6 +48,9 @@ EventLike = Event | Measure | str | Expression | Callable[[float, np.ndarray, np
 Events = EventLike | Sequence[EventLike]
 Inputs = MeasureLike | Sequence[MeasureLike] | Mapping[str, tuple[float, float] | None]
 LawLike = float | Expression | Callable[..., Any]
+UserFunction = Callable[..., Any]
+TermLike = ArrayLike | UserFunction
+Equations = Sequence[Expression] | Mapping[str, Expression]
 Bindings = Mapping[str, MeasureLike]
 Values = Mapping[str, ArrayLike] | Mapping[Measure, ArrayLike] | Mapping[MeasureLike, ArrayLike]
 Motions = Mapping[str, ArrayLike | LawLike] | Mapping[Measure, ArrayLike | LawLike] | Mapping[MeasureLike, ArrayLike | LawLike]
@@ -116,6 +120,9 @@ def types():
            if each.kind is each.KEYWORD_ONLY and each.name not in settings.DEFAULTS]
     dictionaries = {"Settings": ("TypedDict, total=False", "Settings of steps and methods, as of `simulate`.", run),
                     "SimulateSettings": ("Settings, total=False", "Settings of `simulate`.", own),
+                    "ExploreOptions": ("SimulateSettings, total=False", "Arguments of `simulate` and of `view`.", [
+                        *(inspect.signature(simulate).parameters[name] for name in ("step", "t_eval", "events", "outputs")),
+                        *list(inspect.signature(zd.view).parameters.values())[1:6]]),
                     "EnsembleOptions": ("Settings, total=False", "Arguments of `simulate` for the runs of an ensemble.",
                                         [inspect.signature(simulate).parameters[name] for name in ("step", "t_eval", "events")])}
     return TYPES + "\n".join([

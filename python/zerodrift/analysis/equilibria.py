@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from .. import _check
+from .._types import ArrayLike, SystemLike, Values
 from ..errors import EquilibriumFailed, WrongValue
 from ..runs.states.instant import KnownInstant
 from ..systems.base import BaseSystem, core_of, system_of
 from .equilibrium import equilibrium
 from .path import FIRST_STEP, LARGEST_STEP, Curve, Knot
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike, SystemLike, Values
 
 MAX_STEPS = 5000
 

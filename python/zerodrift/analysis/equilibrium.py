@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from .. import _check
+from .._types import ArrayLike, Measures, SystemLike, Values
 from ..errors import EquilibriumFailed, WrongValue, ZerodriftError
 from ..runs.arguments.methods import Projection
 from ..runs.states.operations import project
@@ -20,9 +21,6 @@ from .rest import Balance, Search
 from .retraction import near_to
 from .state import State, scales, state
 from .steady import Steady
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike, Measures, SystemLike, Values
 
 FAR = 20.0      # characteristic scales: a coordinate that has moved so far does not stop
 

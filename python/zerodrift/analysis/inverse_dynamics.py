@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any, NoReturn
 
 import numpy as np
 
 from .. import _check
 from .._gateway import needed_efforts
+from .._types import ArrayLike, Measures, SystemLike, Values
 from ..errors import AccuracyWarning, InconsistentStart, SingularSystem, WrongType, WrongValue
 from ..systems.base import BaseSystem, Makes, core_of, system_of
 from . import read_forces
@@ -19,9 +20,6 @@ from .names import dominant
 from .quantities import components, conjugate, names_of, rates_of, values_of
 from .state import State, scales, small_core, state
 from .tangent import NO_MASS, Tangent
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike, Measures, SystemLike, Values
 
 VIOLATION = 1e-6        # relative to the size: larger violations of the constraints by the given motion are an error
 UNDRIVEN = 1e-9         # relative to the forces: a smaller residual is rounding

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .. import _check
 from .._gateway import Tracked
+from .._types import ArrayLike, Motions, SystemLike, Values
 from ..errors import AccuracyWarning, InconsistentStart, LockedWarning, SingularSystem, WrongValue
 from ..systems.base import BaseSystem, core_of, system_of
 from .kinematic_result import Kinematics
@@ -19,9 +20,6 @@ from .quantities import is_velocity, rates_of, values_of
 from .retraction import near_to, prescribing
 from .state import State, scales, state
 from .tangent import null_space
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike, Motions, SystemLike, Values
 
 INACCURATE = 1e-4           # of the largest second rate: differences of an array over time that are worth a warning
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import warnings
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .. import _check
+from .._types import ArrayLike, Measures, Reading, SystemLike, Values
 from ..errors import AccuracyWarning, InconsistentStart, WrongType, WrongValue
 from ..systems.base import BaseSystem, core_of, system_of
 from . import differences
@@ -17,9 +18,6 @@ from .flow import Flow
 from .linearization_result import Linearization
 from .quantities import components, conjugate, find, names_of
 from .state import State, scales, sizes_of, state
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike, Measures, Reading, SystemLike, Values
 
 VIOLATION = 1e-6        # of characteristic scales: a state that violates its constraints by more is refused
 

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .. import _check
+from .._types import ArrayLike, MeasureLike, SystemLike
 from .quantities import find, names_of
 from .state import State, arguments, scales, state
 from .tangent import Tangent, null_space
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike, MeasureLike, SystemLike
 
 
 def _at(system: Any, p: Any, v: Any, t: float) -> State:

@@ -9,11 +9,12 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, Unpack
+from typing import Any, Literal, Unpack
 
 import numpy as np
 
 from .. import _check, _gateway, _webassembly
+from .._types import ArrayLike, EnsembleOptions, Measures, SystemLike, Values
 from ..errors import DrawingWarning, Interrupted, NoMemory, WorkerLost, WrongValue
 from ..runs.open.ending import with_solution
 from ..runs.open.keyboard import progress_of
@@ -27,9 +28,6 @@ from .plan import Plan, checked
 from .result import Ensemble
 from .run_range import run_range
 from .runs import Runs
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike, EnsembleOptions, Measures, SystemLike, Values
 
 SHARES = 16         # ranges per thread, so that all threads end at about the same time
 LONGEST = 1024      # largest number of runs in a range; SHORTEST: smallest in SIMD lanes, which idle at the end of a range

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check, _gateway
+from .._types import Events
 from ..errors import WrongType, WrongValue, ZerodriftError
 from ..mechanisms.elements.measures import name_of
 from ..runs.arguments import events as events_of
@@ -156,7 +157,7 @@ def _check_signature(runs: Runs) -> None:
                         f"{error}", "user-function") from None
 
 
-def _check_options(system: BaseSystem, span: tuple[float, float], *, events: Any = None, **options: Any) -> int | None:
+def _check_options(system: BaseSystem, span: tuple[float, float], *, events: Events | None = None, **options: Any) -> int | None:
     """Check options as `simulate` does; return the number of samples of a run, None if not known in advance."""
     events_of.events(events, system)
     return settings.plan(system, span, settings.Arguments(**options)).rows

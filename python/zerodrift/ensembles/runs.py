@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
+from .._types import ArrayLike
 from ..errors import WrongType, WrongValue, ZerodriftError
 from ..mechanisms.elements.measures import name_of
 from ..mechanisms.system import MechanismSystem
@@ -45,7 +46,7 @@ class Grid(Mapping):
         return f"<grid of {' x '.join(f'{count} {name}' for name, count in zip(self, self.shape, strict=True))}>"
 
 
-def grid(values: Mapping[str, Any] | None = None, /, **named: Any) -> Grid:
+def grid(values: Mapping[str, ArrayLike] | None = None, /, **named: ArrayLike) -> Grid:
     """All combinations of parameters' values, for `zerodrift.ensemble`.
 
     Parameters

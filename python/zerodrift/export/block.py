@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
+from typing import Any, NamedTuple, Unpack
 
 import numpy as np
 
 from .. import _check
 from .._gateway.mechanisms import blocks
 from .._gateway.mechanisms.element_tables import OutputSpec, law_sizes
+from .._types import ArrayLike, Measures, Settings, SystemLike
 from ..errors import WrongType, WrongValue
 from ..mechanisms.equations.measure_tables import read
 from ..mechanisms.equations.space_tables import tables_of
@@ -22,9 +23,6 @@ from ..systems.base import core_of, system_of
 from . import parameters as _parameters
 from .grip import Grip
 from .law_programs import Programs
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike, Measures, Settings, SystemLike
 
 MAX_MEASURES = 8192        # of a system of the core
 TABLES = blocks.SECTIONS[:blocks.SECTIONS.index("start")]      # sections whose words parameters may change

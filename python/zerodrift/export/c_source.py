@@ -5,18 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Unpack
+from typing import Unpack
 
 import numpy as np
 
 from .. import _check
 from .._gateway.mechanisms import blocks
+from .._types import ArrayLike, Measures, Settings, SystemLike
 from ..errors import ExistingFile
 from .block import Chosen, choose, written
 from .core_files import ENTRIES, CoreFiles, entry
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike, Measures, Settings, SystemLike
 
 
 def c_source(system: SystemLike, folder: str | Path, *, step: float, outputs: Measures = (),

@@ -8,13 +8,14 @@ import re
 import zipfile
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, Unpack
+from typing import NamedTuple, Unpack
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
 from .. import _check, _gateway
 from .._gateway.mechanisms import blocks
+from .._types import ArrayLike, Events, Measures, Settings, SystemLike
 from .._writing import with_suffix, write_atomically
 from ..systems.measure_values import component_names
 from .block import Chosen, choose, written
@@ -23,9 +24,6 @@ from .core_files import CoreFiles
 from .fmu_events import Level, chosen_events, table
 from .fmu_libraries import chosen_platforms, libraries
 from .wasm import text
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike, Events, Measures, Settings, SystemLike
 
 VERSIONS = ("3.0", "2.0")
 OPENED = ("block/open_run/opened.c", "block/open_run/opened_states.c")

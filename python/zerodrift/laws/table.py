@@ -5,16 +5,14 @@ from __future__ import annotations
 import csv
 import inspect
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .. import _check
+from .._types import ArrayLike
 from ..errors import WrongType, WrongValue
 from ..systems import autodiff
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike
 
 BEYOND = 1e-9       # of the table's length: rounding beyond its ends that is accepted
 

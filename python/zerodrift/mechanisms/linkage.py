@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .. import _check
+from .._types import ArrayLike
 from ..errors import SingularSystem, WrongType, WrongValue
 from .assembly.start import Starting
 from .building.link_shape import Shape, on_sides
 from .elements.bodies import Point
 from .elements.numbers import AS_GIVEN
 from .mechanism import Mechanism
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike
 
 GROUND = "ground"
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -213,7 +213,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
     def v0(self) -> np.ndarray:
         return self.system().v0
 
-    def points(self, p: ArrayLike) -> np.ndarray | None:
+    def points(self, p: ArrayLike) -> np.ndarray | Any:
         """The drawing at p, as of its `system`: points (n, dimension) in m, joined by lines where not NaN.
 
         Examples

@@ -359,7 +359,7 @@ class MechanismSystem(Reported):
         return (f"<system of {self.name}{how}: {self.layout} coordinates, {self.nq}, {self.mh} holonomic and {self.mn} "
                 f"nonholonomic constraints{f'; {dear}' if dear else ''}>")
 
-    def points(self, p: ArrayLike) -> np.ndarray | None:
+    def points(self, p: ArrayLike) -> np.ndarray | Any:
         """Outline at p: points (n, dimension) in m, joined by lines where not NaN."""
         poses, _ = self._core.poses(_check.vector("p", p, self.nq))
         return (space_outline if self._drawing.dimension == 3 else outline)(self._drawing, self._numbers, poses)

@@ -6,17 +6,15 @@ import html
 import inspect
 import secrets
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any, Unpack
 
 from .. import _check
+from .._types import ExploreOptions, SystemLike
 from ..errors import MissingPackage, WrongType, WrongValue, ZerodriftError
 from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
 from .scene import Wanted
 from .view import View
-
-if TYPE_CHECKING:
-    from .._types import SystemLike
 
 STEPS = 100         # of a slider
 SHOWN = ("forces", "path", "graphs", "names", "speed")      # arguments of `view`; all others are those of `simulate`
@@ -44,7 +42,7 @@ class Exploration:
         self._made, self._t_span, self.ranges, self.values = made, t_span, dict(ranges), dict(values)
         self._shown = {name: options[name] for name in SHOWN if name in options}
         self._settings = {name: value for name, value in options.items() if name not in SHOWN}
-        self.solution: Solution | None = None
+        self.solution: Solution | Any = None
         self.film: View | None = None
         self.message = ""
         self.group = secrets.token_hex(8)
@@ -135,7 +133,7 @@ class Exploration:
 
 
 def explore(system: SystemLike | Callable[..., SystemLike], parameters: Mapping[str, tuple[float, float]],
-            t_span: float | tuple[float, float] = 10.0, **options: Any) -> Exploration:
+            t_span: float | tuple[float, float] = 10.0, **options: Unpack[ExploreOptions]) -> Exploration:
     """Sliders that simulate again while they are dragged, above the film and its graphs.
 
     Parameters

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import _check
+from .._types import MeasureLike, Measures, Mechanism, Point
 from ..errors import WrongType, WrongValue, ZerodriftError
 from ..runs.samples.solution import A_SOLUTION, Solution
 from ..systems.base import Makes
@@ -136,7 +137,8 @@ def of_solution(solution: Solution, text: str) -> str:
     return words
 
 
-def view(*solutions: Any, forces: Any = False, path: Any = (), graphs: Any = (), names: bool = False,
+def view(*solutions: Solution | Mechanism, forces: bool | Sequence[Any] = False,
+         path: str | Point | Sequence[str | Point] = (), graphs: MeasureLike | Measures = (), names: bool = False,
          speed: float | None = None, labels: Sequence[str] | None = None, live: bool = False,
          sliders: Mapping[str, tuple[float, float]] | None = None) -> Any:
     """Film of one motion, or of several over each other, for notebooks and browsers.
@@ -207,10 +209,11 @@ def view(*solutions: Any, forces: Any = False, path: Any = (), graphs: Any = (),
         _check.instance("each of solutions", sol, Solution, A_SOLUTION if not isinstance(sol, Makes) else
                         f"{A_SOLUTION}, or with live=True a mechanism")
     if labels is None:
-        labels = [sol.system.name if len(solutions) == 1 else f"{sol.system.name} {i}" for i, sol in enumerate(solutions, 1)]
+        labels = [sol.system.name if len(solutions) == 1 else f"{sol.system.name} {i}"     # type: ignore[union-attr]
+                  for i, sol in enumerate(solutions, 1)]
     if len(labels) != len(solutions):
         raise WrongValue(f"labels must name {len(solutions)} solutions, not {len(labels)}", "shape")
-    return View(solutions, list(labels), Wanted(forces, path, graphs, names, speed))
+    return View(solutions, list(labels), Wanted(forces, path, graphs, names, speed))     # type: ignore[arg-type]
 
 
 def _refuse_given(arguments: Mapping[str, Any], rule: str) -> None:

@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from .. import _check
+from .._types import ArrayLike, SystemLike
 from ..errors import WrongType, WrongValue
 from ..runs.samples.solution import A_SOLUTION, Solution
 from ..studies.compare import nearest
@@ -30,8 +31,8 @@ NARROW = 130.0  # points: axes that are narrower show no coordinates
 QUIET = "#6E6E6E"
 
 
-def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes | None = None, *, t: float | None = None,
-              ghosts: Any = None, names: bool = False, path: Any = (), forces: Any = False,
+def mechanism(system_or_solution: SystemLike | Solution, p: ArrayLike | None = None, ax: Axes | None = None, *,
+              t: float | None = None, ghosts: Any = None, names: bool = False, path: Any = (), forces: Any = False,
               force_scale: float | None = None) -> Axes:
     """Draw a system in one position, or a solution at one time with faint other positions.
 

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from .. import _check
+from .._types import ArrayLike
 from ..analysis.linearization_result import EIGENVALUE_ROUNDING, Linearization
 from ..analysis.retraction import onto
 from ..errors import WrongValue
@@ -82,7 +83,8 @@ def mode_positions(lin: Linearization, index: int, amplitude: float, phases: Seq
     return [onto(lin.system, lin.t, lin.p + amplitude * dp) for dp in moved]
 
 
-def root_locus(lins: Sequence[Linearization], values: Any, ax: Axes | None = None, *, label: str = "", **style: Any) -> Axes:
+def root_locus(lins: Sequence[Linearization], values: ArrayLike, ax: Axes | None = None, *, label: str = "",
+               **style: Any) -> Axes:
     """Draw the eigenvalues of several linearizations in the complex plane, coloured by a parameter.
 
     Parameters

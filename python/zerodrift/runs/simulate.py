@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Literal, Unpack
+from typing import Any, Literal, Unpack
 
 from .. import _check, _gateway
+from .._types import ArrayLike, Events, Inputs, Measures, PathLike, SimulateSettings, StateLike, SystemLike
 from .arguments.inputs import Speeds
 from .arguments.settings import known, with_names
 from .open.beginning import prepared
@@ -17,9 +18,6 @@ from .open.run import Run
 from .open.stepping import SLICE
 from .samples import recording
 from .samples.solution import Solution
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike, Events, Inputs, Measures, PathLike, SimulateSettings, StateLike, SystemLike
 
 
 @with_names(known)
@@ -203,12 +201,8 @@ def simulate(
     The run ends when the crank has reached the horizontal twice; times at which the coupler is at rest are recorded, too:
 
     >>> import numpy as np
-    >>> def round(t, p, v):
-    ...     return np.sin(p[0])
-    >>> round.direction, round.terminal = 1, 2
-    >>> def rest(t, p, v):
-    ...     return v[1]
-    >>> sol = zd.simulate(bar, 8.0, step=0.01, events=[round, rest])
+    >>> round = zd.Event(lambda p: np.sin(p[0]), direction=1, terminal=2)
+    >>> sol = zd.simulate(bar, 8.0, step=0.01, events=[round, lambda t, p, v: v[1]])
     >>> sol.message
     'at t = 2.16071475 (step 217 of 800): ended by event 0'
     >>> sol.t_events[1].round(4)

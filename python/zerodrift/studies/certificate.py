@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .. import _check
+from .._types import ArrayLike, Bindings
 from ..errors import WrongValue
 from ..runs.samples.solution import Solution
 from .precise_values import EventTimes, Quantity, Runs, Samples, located, value_of
 from .reference_runs import Difference
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike, Bindings
 
 
 @dataclass(frozen=True, eq=False, repr=False)

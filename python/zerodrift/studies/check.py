@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .. import _check
+from .._types import ArrayLike, SystemLike
 from ..analysis.comparison import Compared, derivatives_by_parameters, derivatives_of_accelerations
 from ..errors import ZerodriftError
 from ..runs.arguments.methods import Projection
 from ..runs.states.operations import acceleration, project
 from ..systems.base import BaseSystem, Terms, core_of, system_of
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike, SystemLike
 
 STEP = np.finfo(float).eps ** (1 / 3)   # of a central difference, relative to the varied quantity
 AGREE = 1e-5                            # relative: far above the error 1e-10 of a difference, far below any mistake

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import contextlib
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .. import _check
 from .._gateway.compiled.precise import Precise
+from .._types import ArrayLike, Formulation, StabilizationName, SystemLike
 from ..errors import UnreachableTolerance, WrongValue, ZerodriftError
 from ..runs.arguments import methods, settings
 from ..systems.base import BaseSystem, system_of
@@ -15,9 +16,6 @@ from .certificate import Reference
 from .reference_precise import PRECISIONS, PreciseSearch, functions_of
 from .reference_runs import Difference, Motion
 from .reference_search import SPACING, Search, SearchBySeries
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike, Formulation, StabilizationName, SystemLike
 
 __all__ = ["Difference", "Reference", "reference"]
 

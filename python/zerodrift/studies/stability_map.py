@@ -4,22 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .. import _check, _gateway
+from .._types import ArrayLike, SystemLike
 from ..errors import Interrupted, WrongValue
 from ..runs.arguments import methods, settings
 from ..runs.open.keyboard import progress_of
 from ..runs.open.threads import side_by_side
+from ..runs.samples.solution import Solution
 from ..systems.base import BaseSystem, system_of
 from . import reference as certified
 from .bench import Bench, Row, Setting
 from .work_precision import default_steps, not_excluded
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike, SystemLike
 
 GAINS = tuple(np.geomspace(1.0, 1000.0, 13))    # 1/s: default values of the parameter, alpha of Baumgarte's method
 OPTIONS = {"formulation": settings.FORMULATION, "integrator": settings.INTEGRATOR, "stabilization": settings.STABILIZATION,
@@ -92,7 +91,7 @@ def stability_map(
     parameter: str | None = None,
     values: Iterable[float] = GAINS,
     ways: Mapping[str, Mapping[str, Any] | Callable[[float], Mapping[str, Any]]] | None = None,
-    reference: Any = None,
+    reference: Solution | certified.Reference | Callable[[float], Any] | None = None,
     progress: bool | Callable[[float], None] = False,
 ) -> StabilityMap:
     """Simulate with several methods over steps and values of one parameter, and compare with a reference.

@@ -6,18 +6,16 @@ import dataclasses
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .. import _check
+from .._types import ArrayLike, Formulation, Integrator, SystemLike
 from ..errors import Interrupted, UnreachableTolerance, WrongValue
 from ..runs.arguments.settings import FINEST_RTOL
 from ..systems.base import system_of
 from . import reference as certified
 from .bench import Bench, Row, Setting
 from .work_precision import WorkPrecision, found, measured, not_excluded, work_precision
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike, Formulation, Integrator, SystemLike
 
 EXTENSIONS = 6      # the largest number of steps beyond those of the first sweep
 REFINEMENTS = 3     # each halves the logarithm of the factor between two neighbouring steps

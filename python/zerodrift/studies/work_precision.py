@@ -9,11 +9,12 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from .. import _check
+from .._types import ArrayLike, EnergyCorrection, Formulation, Integrator, StabilizationName, SystemLike
 from .._writing import write_atomically
 from ..errors import Interrupted, MissingPackage, SingularSystem, WrongType, WrongValue
 from ..runs.arguments import methods, settings
@@ -24,9 +25,6 @@ from ..runs.states.operations import acceleration
 from ..systems.base import BaseSystem, system_of
 from . import reference as certified
 from .bench import Bench, Row, Setting
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike, EnergyCorrection, Formulation, Integrator, StabilizationName, SystemLike
 
 PROBE = 1e-6                                        # tolerance of the run whose mean step defines the default steps
 STEPS = tuple(2.0**-k for k in range(-2, 5))        # default steps as multiples of it

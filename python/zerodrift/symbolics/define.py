@@ -14,6 +14,7 @@ try:
 except ImportError as error:
     raise MissingPackage("symbolic systems need SymPy: pip install 'zerodrift[symbolic]'") from error
 
+from .._types import Equations, Expression
 from ..systems.structure import Structure
 from .arguments import Definition
 from .cache_key import fingerprint
@@ -31,11 +32,13 @@ _derived: dict[str, Code] = {}
 
 
 def symbolic(
-    coordinates: Any, *, kinetic: Any = None, potential: Any = 0, force: Any = None, constraints: Any = (),
-    nonholonomic: Any = (), speeds: Any = None, kinematics: Any = None, parameters: Mapping[Any, float] | None = None,
-    time: sympy.Symbol | None = None, mass: Any = None, bias: Any = None, points: Iterable[Any] = (), quaternions: Any = (),
-    units: Sequence[str] | None = None, p0: ArrayLike | None = None, v0: ArrayLike | None = None, name: str = "symbolic",
-    progress: bool = True, inputs: Sequence[Any] = (),
+    coordinates: Sequence[Expression], *, kinetic: Expression | None = None, potential: Expression | float | None = 0,
+    force: Equations | None = None, constraints: Equations = (), nonholonomic: Equations = (), speeds: Equations | None = None,
+    kinematics: Mapping[Any, Any] | Sequence[Expression] | Expression | None = None,
+    parameters: Mapping[Any, float] | None = None, time: sympy.Symbol | None = None, mass: Expression | None = None,
+    bias: Sequence[Expression] | Expression | None = None, points: Iterable[Sequence[Expression]] = (),
+    quaternions: Sequence[int | str | Expression] = (), units: Sequence[str] | None = None, p0: ArrayLike | None = None,
+    v0: ArrayLike | None = None, name: str = "symbolic", progress: bool = True, inputs: Sequence[Expression | str] = (),
 ) -> SymbolicSystem:
     """System from SymPy expressions: its terms are derived, written as C, compiled and cached.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -14,8 +14,7 @@ from .system import SymbolicSystem
 import sympy  # isort: skip  (after `define`, which says what to install)
 from sympy.physics.mechanics import KanesMethod, LagrangesMethod, ReferenceFrame, dynamicsymbols
 
-if TYPE_CHECKING:
-    from .._types import ArrayLike
+from .._types import ArrayLike, Expression
 
 try:
     from sympy.physics.mechanics import System
@@ -27,9 +26,10 @@ DEPENDENT = 1e-9    # of a row: what others leave of it where they span it, afte
 
 
 def from_mechanics(
-    method: Any, *, potential: Any = None, parameters: Mapping[Any, float] | None = None, points: Sequence[Any] = (),
-    quaternions: Sequence[Any] = (), units: Sequence[str] | None = None, p0: ArrayLike | None = None, v0: ArrayLike | None = None,
-    name: str = "symbolic", progress: bool = True,
+    method: object, *, potential: Expression | None = None, parameters: Mapping[Any, float] | None = None,
+    points: Sequence[Sequence[Expression]] = (), quaternions: Sequence[int | str | Expression] = (),
+    units: Sequence[str] | None = None, p0: ArrayLike | None = None, v0: ArrayLike | None = None, name: str = "symbolic",
+    progress: bool = True,
 ) -> SymbolicSystem:
     """The system that SymPy's mechanics describes, with all of its coordinates and constraints.
 

@@ -270,7 +270,7 @@ class SymbolicSystem(BaseSystem):
         vars(other).update(vars(self))
         return other
 
-    def points(self, p: ArrayLike) -> np.ndarray | None:
+    def points(self, p: ArrayLike) -> np.ndarray | Any:
         """Points of the drawing at p, (n, 2) or (n, 3), joined by lines except at NaN; None without a drawing."""
         count, dimension = self._code.drawing
         if not count:

@@ -3,15 +3,7 @@
 Each function takes the parameters of its system as keywords, with the units its docstring gives, and returns the system.
 """
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING
-
-from .builtin import FACTORIES, BuiltIn
-
-if TYPE_CHECKING:
-
-    def __getattr__(name: str) -> Callable[..., BuiltIn]: ...
-
+from .builtin import FACTORIES
 
 globals().update(FACTORIES)
 __all__ = list(FACTORIES)

@@ -37,7 +37,7 @@ class SystemOfKind(BaseSystem):
         self._given = {name: self.parameters[name] for name in parameters}     # as checked: a caller's array may change later
         self.coordinates, self.velocities, self.constraints = kind.coordinates, kind.velocities, kind.constraints
 
-    def points(self, p: ArrayLike) -> np.ndarray | None:
+    def points(self, p: ArrayLike) -> np.ndarray | Any:
         """The drawing at p: points (n, 2) or (n, 3) in m, joined by lines where not NaN. None: there is no drawing."""
         return self._kind.draw(self._core, _check.vector("p", p, self.nq))
 

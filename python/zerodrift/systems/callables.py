@@ -11,6 +11,7 @@ import numpy as np
 from .. import _check, _gateway
 from .._gateway import Variable
 from .._gateway.inputs import Bound, Place
+from .._types import ArrayLike, TermLike, UserFunction
 from ..errors import WrongType, WrongValue
 from .base import BaseSystem
 from .defaults import WithInputs
@@ -105,11 +106,12 @@ class System(BaseSystem):
     _has_own_energy = True
 
     def __init__(
-        self, coordinates: int | Sequence[str], *, mass: Any, force: Any = None, bias: Any = None, constraints: Any = None,
-        jacobian: Any = None, nonholonomic: Any = None, xi: Any = None, kinematics: Any = None,
-        quaternions: Sequence[int | str] = (), potential: Any = None, power: Any = None,
-        structure: Structure | None = None, units: Sequence[str] | None = None, parameters: dict[str, Any] | None = None,
-        p0: Any = None, v0: Any = None, name: str | None = None,
+        self, coordinates: int | Sequence[str], *, mass: TermLike, force: TermLike | None = None, bias: TermLike | None = None,
+        constraints: UserFunction | None = None, jacobian: UserFunction | None = None, nonholonomic: UserFunction | None = None,
+        xi: UserFunction | None = None, kinematics: UserFunction | None = None, quaternions: Sequence[int | str] = (),
+        potential: UserFunction | None = None, power: UserFunction | None = None, structure: Structure | None = None,
+        units: Sequence[str] | None = None, parameters: dict[str, Any] | None = None, p0: ArrayLike | None = None,
+        v0: ArrayLike | None = None, name: str | None = None,
     ) -> None:
         parameters = {key: _parameter(key, value) for key, value in _check.parameters(parameters).items()}
         self._given = {key: _as_now(value) for key, value in locals().items() if key not in ("self", "__class__")}

@@ -41,9 +41,9 @@ class Defaults:
         @cached_property
         def constraints(self) -> tuple[Variable, ...]: ...
         @cached_property
-        def p0(self) -> np.ndarray | None: ...
+        def p0(self) -> np.ndarray | Any: ...
         @cached_property
-        def v0(self) -> np.ndarray | None: ...
+        def v0(self) -> np.ndarray | Any: ...
         @cached_property
         def _core(self) -> CoreSystem: ...
 
@@ -72,7 +72,7 @@ class Defaults:
         """Units of the parameters, as far as they are known."""
         return {}
 
-    def points(self, p: ArrayLike) -> np.ndarray | None:
+    def points(self, p: ArrayLike) -> np.ndarray | Any:
         """Drawing at p: points (n, 2) or (n, 3) in m, joined by lines except at NaN. None: the system has no drawing."""
         return None
 

@@ -61,7 +61,7 @@ def numba_signature() -> Any:
 
 
 def native(
-    function: Any, coordinates: int | Sequence[str] | None = None, *, terms: Iterable[str] | None = None,
+    function: object, coordinates: int | Sequence[str] | None = None, *, terms: Iterable[str] | None = None,
     symbol: str | None = None, version: int | None = None, velocities: int | Sequence[str] | None = None,
     constraints: int | Sequence[str] = 0, nonholonomic: int | Sequence[str] = 0, parameters: Mapping[str, float] | None = None,
     quaternions: Sequence[int | str] = (), structure: Structure | None = None, units: Sequence[str] | None = None,

@@ -61,9 +61,9 @@ class Structure:
     (0, 6, 18)
     """
 
-    blocks: Any
-    groups: Any = ()
-    mass: Any = ""
+    blocks: Sequence[Any]
+    groups: Sequence[Any] = ()
+    mass: str | Sequence[str] = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "blocks", _blocks(self.blocks))

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import itertools
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .. import _check
+from .._types import ArrayLike, MeasureLike, Measures, SystemLike, Values
 from ..errors import WrongType, WrongValue
 from ..mechanisms.elements.measures import name_of
 from ..mechanisms.system import MechanismSystem
@@ -16,9 +17,6 @@ from . import walk
 from .curve import Knot, Segment
 from .motion import Motion
 from .trace_result import DeadPoint, Reach, Trace
-
-if TYPE_CHECKING:
-    from .._types import ArrayLike, MeasureLike, Measures, SystemLike, Values
 
 
 def trace(system: SystemLike, measure: MeasureLike, values: ArrayLike | None = None, *, hold: Values | Measures = (),

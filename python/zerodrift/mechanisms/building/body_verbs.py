@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ... import _check
+from ..._types import ArrayLike
 from ...errors import WrongValue
 from ..elements.bodies import Body, Link, Particle, Point
 from ..elements.frames import Pose, Pose3, given_rotation, perpendicular
 from ..elements.immutable import Fixed
 from ..elements.space_bodies import SpaceBody, SpaceLink, SpaceParticle, tensor
 from .registry import Elements
-
-if TYPE_CHECKING:
-    from ..._types import ArrayLike
 
 PARALLEL = 1e-6     # sine of the angle below which directions are parallel
 

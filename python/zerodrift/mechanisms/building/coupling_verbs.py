@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ... import _check
+from ..._types import ArrayLike, Bindings, LawLike, Values
 from ...errors import WrongType, WrongValue
 from ..elements.joints import Coupling, Joint
 from ..elements.measures import Measure, name_of
@@ -13,9 +14,6 @@ from ..elements.user_functions import Law
 from ..equations.measure_names import checked_reading
 from .periodic_spline import PeriodicSpline
 from .registry import Elements
-
-if TYPE_CHECKING:
-    from ..._types import ArrayLike, Bindings, LawLike
 
 
 class CouplingVerbs(Elements):
@@ -106,7 +104,7 @@ class CouplingVerbs(Elements):
         bases = [base.partition(".")[2] for each in of for base in checked_reading(each, each, None, self._elements).quantities]
         return self._add(Coupling(name, kind, of, "torque" if all("ang" in base for base in bases) else "force", **how))
 
-    def coupler(self, name: str, value: LawLike, *, of: Bindings | None = None) -> Coupling:
+    def coupler(self, name: str, value: LawLike | Values, *, of: Bindings | None = None) -> Coupling:
         """Couple measures of positions by any function of them that has to be zero; the same as `constraint`, said of joints.
 
         Parameters
@@ -200,7 +198,7 @@ class CouplingVerbs(Elements):
                             f"not {_check.shown(profile)}")
         return self._by_law(name, "cam", _Follows(profile), {"angle": Measure(f"{cam.name}.angle"), "follower": follower})
 
-    def constraint(self, name: str, value: LawLike, *, of: Bindings | None = None) -> Coupling:
+    def constraint(self, name: str, value: LawLike | Values, *, of: Bindings | None = None) -> Coupling:
         """Add a constraint of one's own.
 
         Parameters
@@ -230,7 +228,7 @@ class CouplingVerbs(Elements):
         """
         return self._by_law(self._new_name(name, "constraint"), "constraint", value, of)
 
-    def nonholonomic(self, name: str, value: LawLike, *, of: Bindings | None = None) -> Coupling:
+    def nonholonomic(self, name: str, value: LawLike | Values, *, of: Bindings | None = None) -> Coupling:
         """Add a nonholonomic constraint of one's own.
 
         Parameters

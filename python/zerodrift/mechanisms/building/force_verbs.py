@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ... import _check
+from ..._types import ArrayLike, Bindings, LawLike
 from ...errors import WrongType, WrongValue
 from ..elements.bodies import Body, Particle, Point
 from ..elements.forces import Actuator, Force, Motor, Torque
 from ..elements.joints import Joint
 from .registry import Elements
-
-if TYPE_CHECKING:
-    from ..._types import ArrayLike, Bindings, LawLike
 
 VECTORS = {2: "(0.0, -10.0)", 3: "(0.0, 0.0, -10.0)"}      # examples in messages
 DRIVES = {"angle": ("angle",), "displacement": ("displacement",), "speed": ("angle", "displacement"), "torque": ("angle",),

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ... import _check
+from ..._types import ArrayLike
 from ...errors import WrongValue
 from ..elements.bodies import Body, Point
 from ..elements.joints import Joint, Rolling
 from .space_joint_verbs import SpaceJointVerbs
 from .table_verbs import TableVerbs
-
-if TYPE_CHECKING:
-    from ..._types import ArrayLike
 
 Side = Body | Point | str
 

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ... import _check
+from ..._types import Values
 from ...errors import WrongType, WrongValue
 from ..elements.forces import Actuator
 from ..elements.frames import given_rotation
 from ..elements.measures import name_of
 from ..equations.measure_names import checked_reading
 from .registry import Elements
-
-if TYPE_CHECKING:
-    from ..._types import Values
 
 
 class StartVerbs(Elements):

@@ -11,7 +11,7 @@ import numpy as np
 from ... import _check
 from ..._gateway.mechanisms.element_tables import ElementKind
 from ...errors import WrongType, WrongValue
-from ..elements.bodies import Point, axes_of
+from ..elements.bodies import Point
 from ..elements.frames import perpendicular
 from ..elements.table_forces import ROTATIONS, TableForce, has, is_between_points, lengths, parameters
 from .registry import Elements
@@ -145,7 +145,7 @@ def _frames(name: str, first: Point, second: Point, axis: Any, normal: Any) -> t
     """Three directions in the frames of both bodies; by default the axes of the first body."""
     if axis is None and normal is not None:
         raise WrongType(f"normal of {name!r} goes with axis=, to which it is made perpendicular", "missing-argument")
-    frame = axes_of(first.body).T
+    frame = first.body.pose.rotation.T      # type: ignore[attr-defined]
     if axis is not None:
         if normal is not None and np.linalg.norm(np.cross(axis, normal)) < FLAT:
             raise WrongValue(f"normal of {name!r} must not be parallel to its axis", "geometry")

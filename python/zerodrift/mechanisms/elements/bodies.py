@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ... import _check
+from ..._types import ArrayLike
 from ...errors import WrongAttribute, WrongType
 from . import columns
 from .frames import Pose
 from .immutable import Fixed
 from .measures import scalar, vector
 from .numbers import AS_GIVEN, Numbers
-
-if TYPE_CHECKING:
-    from ..._types import ArrayLike
 
 
 class MassProperties(NamedTuple):
@@ -284,11 +282,6 @@ def place(argument: str, value: Any, dimension: int = 2) -> np.ndarray:
 
 def _as_it_is(point: Point) -> Point:
     return point
-
-
-def axes_of(body: Any) -> np.ndarray:
-    """Axes of a body in space in the drawing, the columns of (3, 3)."""
-    return body.pose.rotation
 
 
 def kind_of(element: Any) -> str:

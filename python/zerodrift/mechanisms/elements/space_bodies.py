@@ -146,7 +146,7 @@ class SpaceLink(SpaceBody, Link):
     """
 
     what = "link"
-    position, velocity, acceleration = Link.position, Link.velocity, Link.acceleration
+    position, velocity, acceleration = Link.position, Link.velocity, Link.acceleration      # type: ignore[has-type]
 
     def __init__(self, name: str, start: np.ndarray, end: np.ndarray, mass: float, length: float, rotation: np.ndarray,
                  thickness: float | None, inertia: np.ndarray | None) -> None:

@@ -28,7 +28,7 @@ from .node_relations import Relations
 from .space_frames import Frames, Vector
 
 XYZ = "x", "y", "z"
-HALF = nodes.HALF
+HALF = nodes.HALF      # type: ignore[has-type]
 
 
 def with_nodes(plan: SpacePlan, number: nodes.Numbering) -> SpacePlan[Node]:

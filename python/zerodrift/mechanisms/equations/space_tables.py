@@ -13,7 +13,7 @@ from ..._gateway.mechanisms.element_tables import ElementQuantity, three
 from ..._gateway.mechanisms.space import AS_DRAWN, Quantity, SpaceCore
 from ..._gateway.mechanisms.space_tree import SpaceTreeCore
 from ..._rotations import AXES, quaternion_of
-from ..elements.bodies import Body, Particle, Point, axes_of
+from ..elements.bodies import Body, Particle, Point
 from ..elements.drawing import Drawing
 from ..elements.frames import triple
 from ..elements.joints import Joint
@@ -62,7 +62,8 @@ class SpaceTables(Tables):
         poses = []
         for body in self.parts:
             known = self.inertias.of[body.name]
-            poses.append([*body.pose.point(known.com), *quaternion_of(axes_of(body) @ known.axes)])
+            rotation = body.pose.rotation @ known.axes      # type: ignore[attr-defined]
+            poses.append([*body.pose.point(known.com), *quaternion_of(rotation)])
         return np.array(poses, dtype=float).reshape(-1, 7)
 
     def coordinates(self) -> tuple[Variable, ...]:

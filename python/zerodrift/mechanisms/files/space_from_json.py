@@ -9,7 +9,7 @@ import numpy as np
 
 from ... import _check
 from ...errors import WrongValue
-from ..elements.bodies import Point, axes_of
+from ..elements.bodies import Point
 from ..elements.frames import Pose3, given_rotation
 from ..elements.immutable import amend
 from ..elements.space_joints import BY_KIND, SpaceJoint, advances
@@ -55,7 +55,8 @@ def frames_from_json(first: Point, second: Point, given: Any) -> tuple[np.ndarra
     if not isinstance(given, list) or len(given) != 2:
         raise WrongValue(f"frames must be two matrices, not {_check.shown(given)}", "unreadable-file")
     frames = _rotation("frames[0]", given[0]), _rotation("frames[1]", given[1])
-    one, other = (frame @ axes_of(side.body).T for frame, side in zip(frames, (first, second), strict=True))
+    one, other = (frame @ side.body.pose.rotation.T       # type: ignore[attr-defined]
+                  for frame, side in zip(frames, (first, second), strict=True))
     if np.abs(one - other).max() > SAME:
         raise WrongValue("frames must be the same in the drawing, that of the first body and that of the second",
                          "unreadable-file")

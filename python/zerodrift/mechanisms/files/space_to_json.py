@@ -38,4 +38,4 @@ def _torque(torque: Any, drawing: Drawing) -> dict[str, Any]:
 
 
 IN_SPACE: dict[str, Callable[[Any, Drawing], dict[str, Any]]] = {
-    **dict.fromkeys(BY_KIND, _joint), "rolling": _rolling, "body": _body, "link": _link, "torque": _torque}
+    **dict.fromkeys(BY_KIND, _joint), "rolling": _rolling, "body": _body, "link": _link, "torque": _torque}      # type: ignore[has-type]

@@ -137,7 +137,7 @@ def _table_force(force: TableForce, drawing: Drawing) -> dict[str, Any]:
 
 
 WRITTEN: dict[str, Callable[[Any, Drawing], dict[str, Any]]] = {
-    **dict.fromkeys(JOINTS, _joint), **dict.fromkeys((kind for kind in FORCES if kind in ELEMENTS), _table_force),
+    **dict.fromkeys(JOINTS, _joint), **dict.fromkeys((kind for kind in FORCES if kind in ELEMENTS), _table_force),      # type: ignore[has-type]
     "body": _body, "link": _link, "particle": _particle, "point": _point, "gear": _linear,
     "rack_pinion": _linear, "coupler": _coupling, "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
     "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque}

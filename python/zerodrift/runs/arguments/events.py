@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
 from ... import _check, _gateway
 from ..._gateway.known_events import Reading
+from ..._types import Bindings, Expression, MeasureLike
 from ...errors import WrongType, WrongValue
 from ...systems.base import BaseSystem
 
@@ -72,11 +73,11 @@ class Event:
     True
     """
 
-    what: Any
+    what: MeasureLike | Expression | Callable[..., Any]
     value: float = 0.0
-    direction: int = 0
+    direction: Literal[-1, 0, 1] = 0
     terminal: bool | int = False
-    of: Mapping[str, Any] | None = None
+    of: Bindings | None = None
 
     def watched(self, name: str, system: BaseSystem) -> Watched:
         """The event, checked for a system; error messages call it `name`, such as ``events[1]``."""

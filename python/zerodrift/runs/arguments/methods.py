@@ -8,14 +8,12 @@ from __future__ import annotations
 import dataclasses
 import functools
 import textwrap
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from ... import _check, _gateway
+from ..._types import Correction, Formulation, Integrator, SystemLike
 from ...errors import WrongValue
 from ...systems.base import BaseSystem, core_of, system_of
-
-if TYPE_CHECKING:
-    from ..._types import Correction, Formulation, Integrator, SystemLike
 
 WIDTH = 100     # characters of a printed line
 
@@ -103,7 +101,7 @@ class Row(_gateway.Card):
     __slots__ = ()
 
     @property
-    def settings(self) -> type[RowSettings]:
+    def settings(self) -> type[Any]:
         return _class_of(self)
 
     def __repr__(self) -> str:

@@ -9,18 +9,16 @@ import operator
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
+from typing import Any, Literal, NamedTuple, TypeVar
 
 import numpy as np
 
 from ... import _check, _gateway
+from ..._types import ArrayLike, Correction, Formulation, Integrator, StabilizationName, VectorUnit
 from ...errors import WrongType, WrongValue
 from ...systems.base import BaseSystem, core_of
 from . import methods
 from .methods import ARGUMENTS, TABLES, RowSettings, integrators, name_of, row_of
-
-if TYPE_CHECKING:
-    from ..._types import ArrayLike, Correction, Formulation, Integrator, StabilizationName, VectorUnit
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 CORRECTIONS = TABLES["corrections"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, overload
 
 from ... import _check
 from ...errors import WrongType, WrongValue
@@ -34,7 +34,15 @@ class Every:
         return f"<every {self.period:g} s: {getattr(self.call, '__name__', repr(self.call))}>"
 
 
-def every(period: float, call: Callable[[Any], Any] | None = None) -> Any:
+@overload
+def every(period: float) -> Callable[[Callable[[Any], object]], Every]: ...
+
+
+@overload
+def every(period: float, call: Callable[[Any], object]) -> Every: ...
+
+
+def every(period: float, call: Callable[[Any], object] | None = None) -> Any:
     """A controller: a function that a run calls at its start and at exact multiples of a period, and that sets inputs.
 
     Parameters
@@ -67,7 +75,7 @@ def every(period: float, call: Callable[[Any], Any] | None = None) -> Any:
     >>> pin = m.revolute("pin", m.ground, arm.start)
     >>> drive = m.motor("drive", pin, torque=0.0)
     >>> @zd.every(0.01)
-    ... def hold(run):
+    ... def hold(run: zd.Run) -> None:
     ...     run["drive.torque"] = 4.905 - 50.0 * run["pin.angle"] - 10.0 * run["pin.speed"]
     >>> sol = zd.simulate(m, 2.0, step=0.002, inputs=["drive.torque"], control=hold)
     >>> bool(abs(sol["pin.angle"][-1]) < 1e-3)

@@ -7,11 +7,12 @@ import itertools
 import math
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 import numpy as np
 
 from ... import _check, _gateway
+from ..._types import ArrayLike, Inputs, MeasureLike, Settings, SystemLike
 from ...errors import WrongValue
 from ...systems.base import closed_form_core_of
 from ..arguments.inputs import Speeds, refuse_unknown
@@ -21,9 +22,6 @@ from .beginning import Prepared, nominal_span, prepared
 from .ending import beyond_reach
 from .run_state import restored, saved, unpacked
 from .threads import processors
-
-if TYPE_CHECKING:
-    from ..._types import ArrayLike, Inputs, MeasureLike, Settings, SystemLike
 
 SMALLEST_PART = 64      # minimum number of runs in a thread
 FEWEST_IN_LANES = 16    # minimum number of runs for which functions in SIMD lanes are compiled

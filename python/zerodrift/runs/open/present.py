@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ... import _check, _gateway
+from ..._types import ArrayLike, MeasureLike
 from ...errors import WrongValue
 from ..arguments.inputs import refuse_unknown
 from ..samples.summary import run_summary
 from ..states.reading import Reading
 from .beginning import Prepared
 from .ending import with_reason
-
-if TYPE_CHECKING:
-    from ..._types import ArrayLike, MeasureLike
 
 
 class Present:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 from ... import _check, _gateway
+from ..._types import ArrayLike, Events, Inputs, Measures, PathLike, Settings, StateLike, SystemLike
 from ...errors import StateWarning, WrongState, WrongValue
 from ..arguments.inputs import History, Speeds
 from ..arguments.settings import known, with_names
@@ -18,9 +19,6 @@ from .control import Every, controls
 from .ending import Outcome, finish_file
 from .run_state import restored, saved, unpacked
 from .stepping import Stepping
-
-if TYPE_CHECKING:
-    from ..._types import ArrayLike, Events, Inputs, Measures, PathLike, Settings, StateLike, SystemLike
 
 
 class Run(Stepping):

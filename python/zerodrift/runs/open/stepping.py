@@ -35,7 +35,7 @@ class Stepping(Present):
 
     def _open(self, core: _gateway.OpenRun) -> None:
         super()._open(core)
-        self.jump: Jump | None = None
+        self.jump: Jump | Any = None
         self._jumps = core.jumps
 
     def step(self, steps: int = 1) -> None:

@@ -8,12 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ... import _gateway
+from ..._types import MeasureLike
 from ...errors import WrongName
 from ...systems.base import BaseSystem
 from ...systems.measure_values import AXES, view
-
-if TYPE_CHECKING:
-    from ..._types import MeasureLike
 
 
 class Stats(dict):

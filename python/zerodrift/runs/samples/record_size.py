@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from ... import _check, _gateway
+from ..._types import ArrayLike, Measures, SystemLike
 from ...systems.base import core_of, system_of
 from ..arguments import outputs as _outputs
 from ..arguments import settings
 from . import memory
-
-if TYPE_CHECKING:
-    from ..._types import ArrayLike, Measures, SystemLike
 
 
 class RecordSize(NamedTuple):

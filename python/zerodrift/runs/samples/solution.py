@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from ... import _check
+from ..._types import ArrayLike
 from ...errors import WrongValue
 from ...systems.base import BaseSystem
 from ..states.instant import Instant
@@ -22,8 +23,6 @@ from .summary import summary
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    from ..._types import ArrayLike
 
 A_SOLUTION = "a Solution, as zd.simulate returns it"      # for error messages
 
@@ -117,9 +116,9 @@ class Solution(Named):
     settings: dict[str, Any]
     system: BaseSystem
     t_span: tuple[float, float]
-    t_events: tuple[np.ndarray, ...] | None = None
-    p_events: tuple[np.ndarray, ...] | None = None
-    v_events: tuple[np.ndarray, ...] | None = None
+    t_events: tuple[np.ndarray, ...] | Any = None
+    p_events: tuple[np.ndarray, ...] | Any = None
+    v_events: tuple[np.ndarray, ...] | Any = None
     outputs: dict[str, np.ndarray] = field(default_factory=dict)
 
     _repr_html_: ClassVar[Callable[[Solution], str]]      # set by the package, as runs know nothing of films

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ... import _check
+from ..._types import ArrayLike, MeasureLike, SystemLike
 from ...errors import WrongType, WrongValue
 from ...systems.base import BaseSystem, Makes, core_of, system_of
 from .operations import acceleration, project
-
-if TYPE_CHECKING:
-    from ..._types import ArrayLike, MeasureLike, SystemLike
 
 
 def _sample(values: Any) -> np.ndarray:

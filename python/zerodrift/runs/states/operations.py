@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from ... import _check, _gateway
 from ..._gateway import Variable
+from ..._types import ArrayLike, Formulation, Measures, Projection, SystemLike, Values
 from ...errors import WrongType, WrongValue
 from ...systems.base import BaseSystem, Makes, core_of, system_of
 from ..arguments import methods, settings
-
-if TYPE_CHECKING:
-    from ..._types import ArrayLike, Formulation, Measures, Projection, SystemLike, Values
 
 TOL, ITERATIONS = 1e-12, 100      # defaults of `assemble`
 NUDGE = 1e-3                      # default displacement, in rad or relative to the size of the mechanism
