@@ -85,7 +85,8 @@ def find(at: State, name: str, what: str) -> Found:
         If nothing has that name, or it depends on accelerations or reactions.
     """
     found = rates_of(at.system, (name,), what, np.array([at.t]), at.p[None], at.v[None])
-    return Found(*(found[part][0] for part in PARTS), is_velocity(at.system, name))
+    value, rate, row, bias = (found[part][0] for part in PARTS)
+    return Found(value, rate, row, bias, is_velocity(at.system, name))
 
 
 def is_velocity(system: BaseSystem, name: str) -> bool:
