@@ -1,4 +1,4 @@
-"""Steps of all models, by tables and compiled, fixed and adaptive, beside a step of MuJoCo at its own settings.
+"""Steps of all models, by matrices, as they come, and compiled, fixed and adaptive, beside a step of MuJoCo at its own settings.
 
 Run it with ``python tests/bench/bench_model_steps.py`` where mujoco is installed, too; it needs a C compiler and writes
 ``results/model_steps.csv``. Fixed steps are 300 of "rk4" at 0.1 ms, adaptive ones those of "dop853" over 0.2 s, both with
@@ -24,8 +24,9 @@ with contextlib.suppress(ImportError):
     import models_in_mujoco
 
 ROUNDS, STEPS, STEP, SPAN, PEER_STEPS = 5, 300, 1e-4, 0.2, 300
-COLUMNS = ("model", "import to solution [s]", "fixed, tables [us]", "compiled [us]", "adaptive, tables [us]", "compiled [us]",
-           "MuJoCo [us]", "MuJoCo / tables", "MuJoCo / compiled")
+COLUMNS = ("model", "import to solution [s]", "fixed, matrices [us]", "as it comes [us]", "compiled [us]",
+           "adaptive, matrices [us]", "as it comes [us]", "compiled [us]", "MuJoCo [us]", "MuJoCo / as it comes",
+           "MuJoCo / compiled")
 SCRIPT = f"import zerodrift as zd; zd.simulate(zd.models.{{}}(), {STEPS * STEP}, step={STEP})"
 LARGE_MODEL = "chain"     # 1000 links: no code is written for it; `bench_bodies.py` has it beside others
 
@@ -69,15 +70,17 @@ def peer(m):
 def measured(name):
     """The row of a model: least times of alternating rounds."""
     m = getattr(zd.models, name)()
-    tables, of_peer = m.system(compiled=False), peer(None if name == LARGE_MODEL else m)
-    calls = [lambda: from_import(name), lambda: fixed(tables), lambda: adaptive(tables), of_peer]
+    matrices, usual, of_peer = m.system(compiled=False), m.system(), peer(None if name == LARGE_MODEL else m)
+    calls = [lambda: from_import(name), lambda: fixed(matrices), lambda: fixed(usual), lambda: adaptive(matrices),
+             lambda: adaptive(usual), of_peer]
     if name != LARGE_MODEL:
         compiled = m.system(compiled=True)
         calls += [lambda: fixed(compiled), lambda: adaptive(compiled)]
     least = [min(times) for times in zip(*([call() for call in calls] for _ in range(ROUNDS)), strict=True)]
-    total, by_tables, adaptive_by_tables, other, *code = least
+    total, by_matrices, step, adaptive_by_matrices, adaptive_step, other, *code = least
     code = code or [float("nan")] * 2
-    return total, by_tables, code[0], adaptive_by_tables, code[1], other, other / by_tables, other / code[0]
+    return (total, by_matrices, step, code[0], adaptive_by_matrices, adaptive_step, code[1], other, other / step,
+            other / code[0])
 
 
 def main():

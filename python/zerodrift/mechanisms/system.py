@@ -339,6 +339,8 @@ class MechanismSystem(Reported):
         return self.layout, drawing.gravity, drawing.elements
 
     def __reduce__(self) -> tuple[Any, ...]:
+        if self._takes_programs:
+            self._closed_form[1].programs       # noqa: B018 - the other process may lack SymPy
         return MechanismSystem, (self._drawing, self.layout, self._changed, self._compiled, self._known_closed_form())
 
     def _known_closed_form(self) -> tuple[str, ClosedFormFunctions] | None:
