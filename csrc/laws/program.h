@@ -50,8 +50,9 @@ typedef struct zd_expressions {
 } zd_expressions;
 
 enum { ZD_FRAME = 8192 };
+/* Memory of a frame, on the stack */
 #if defined(__GNUC__)
-#define ZD_VALUES(type, name, frame) type name[frame]
+#define ZD_VALUES(type, name, frame) type *const name = __builtin_alloca_with_align((size_t)(frame) * sizeof(type), 8 * _Alignof(type))
 #else
 #define ZD_VALUES(type, name, frame) type name[ZD_FRAME]
 #endif
