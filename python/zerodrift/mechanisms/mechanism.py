@@ -103,8 +103,8 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         compiled : None or bool
             None: tables are interpreted, and small mechanisms evaluated in closed form by programs that the core runs. A run
             of fixed steps that gains more than 5 s by it, from a count of instructions, compiles the equations before its
-            first step, with the same bits; ``print(sol)`` of others has what `compiled` would save. ZERODRIFT_COMPILE=0 in the
-            environment refuses that. False: tables and matrices alone.
+            first step, and steps in closed form keep their bits; ``print(sol)`` of others has what `compiled` would save.
+            ZERODRIFT_COMPILE=0 in the environment refuses that. False: tables and matrices alone.
             True: the equations are written out, compiled and cached, with closed-form functions where these pay:
             some four times faster for small mechanisms, after a second or more once. Numbers stay numbers that
             `with_parameters` changes; which of them are zero or one, and which points of a body coincide, is in the code, and

@@ -16,7 +16,7 @@ from .._gateway.base import row_named
 from .._gateway.compiled.precise import Precise
 from .._gateway.mechanisms import law_inputs
 from .._gateway.mechanisms.core import MechanismCore
-from ..errors import WrongValue, ZerodriftError, sentence
+from ..errors import WrongType, WrongValue, ZerodriftError, sentence
 from ..symbolics.compile.closed_form_library import CLOSED_FORM, ClosedFormFunctions
 from ..systems.defaults import WithInputs
 from ..systems.parameter_tables import NumberTables, refusals
@@ -190,10 +190,15 @@ class MechanismSystem(Reported):
                           self._written.with_programs(functions, embeds))
         return cores[key]
 
-    @property
+    @functools.cached_property
     def _takes_programs(self) -> bool:
         """True if closed-form functions may be programs that the core runs: equations are not compiled, but could be."""
-        return not self.compiled and self._compiled is not False and self._why_not_compiled() is None
+        if self.compiled or self._compiled is False or self._why_not_compiled() is not None:
+            return False
+        try:
+            return self._written is not None
+        except (WrongType, WrongValue):     # an expression has a function that C lacks
+            return False
 
     def _instructions(self) -> int:
         found = self._closed_form[1].programs if self._takes_programs else None
@@ -336,7 +341,7 @@ class MechanismSystem(Reported):
 
     def _definition(self) -> tuple[Any, ...]:
         drawing = self._drawing
-        return self.layout, drawing.gravity, drawing.elements
+        return self.layout, self.compiled, drawing.gravity, drawing.elements
 
     def __reduce__(self) -> tuple[Any, ...]:
         if self._takes_programs:
