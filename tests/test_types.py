@@ -85,10 +85,10 @@ def test_an_editor_completes_what_a_user_writes(written):
 
 @pytest.mark.parametrize("name", PUBLIC)
 def test_every_public_function_completes_with_its_arguments_and_its_result(name):
-    signature, *_ = jedi.Script(CODE + f"zd.{name}(").get_signatures()
+    params = [each for signature in jedi.Script(CODE + f"zd.{name}(").get_signatures() for each in signature.params]
     asked = inspect.signature(getattr(zd, name)).parameters.values()
-    assert {each.name for each in asked if each.kind is not each.VAR_KEYWORD} <= {each.name for each in signature.params}
-    untyped = [each.name for each in signature.params if each.description.endswith(": Any") or ": Any=" in each.description]
+    assert {each.name for each in asked if each.kind is not each.VAR_KEYWORD} <= {each.name for each in params}
+    untyped = [each.name for each in params if each.description.endswith(": Any") or ": Any=" in each.description]
     assert not untyped
     found = jedi.Script(CODE + f"found = zd.{name}()\nfound").infer()
     assert bool(found) is (name not in WITHOUT_CLASS)

@@ -22,7 +22,7 @@ COURSES = {"fixed": {"step": 0.01, "closed_form": False}, "saved": {"step": 0.01
 
 def made(system, span, parameters=None, p0=None, v0=None, names=None, stop=never, **options):
     runs = Runs(system, parameters, p0, v0, None, (), assembles=True)
-    plan = checked(runs, span, options, names, None, keeps=False)
+    plan = checked(runs, span, names, None, keeps=False, **options)
     assert batch_of(plan) is not None
     return run_range(plan, 0, runs.count, stop)
 
@@ -112,4 +112,4 @@ def test_doubtful_runs_are_reported_once():
                          ids=["events", "rows"])
 def test_what_needs_python_is_left_to_it(needs_python):
     runs = Runs(zd.systems.four_bar(), {"gravity": [1.0, 2.0]}, None, None, None, (), assembles=True)
-    assert batch_of(checked(runs, 1.0, needs_python, None, None, keeps=False)) is None
+    assert batch_of(checked(runs, 1.0, None, None, keeps=False, **needs_python)) is None

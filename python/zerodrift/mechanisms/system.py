@@ -16,7 +16,7 @@ from .._gateway.base import row_named
 from .._gateway.compiled.precise import Precise
 from .._gateway.mechanisms import law_inputs
 from .._gateway.mechanisms.core import MechanismCore
-from ..errors import WrongType, WrongValue, ZerodriftError, sentence
+from ..errors import WrongValue, ZerodriftError, sentence
 from ..symbolics.compile.closed_form_library import CLOSED_FORM, ClosedFormFunctions
 from ..systems.defaults import WithInputs
 from ..systems.parameter_tables import NumberTables, refusals
@@ -189,20 +189,6 @@ class MechanismSystem(Reported):
             cores[key] = (self._written.with_closed_form(functions, vector) if self.compiled else
                           self._written.with_programs(functions, embeds))
         return cores[key]
-
-    @functools.cached_property
-    def _takes_programs(self) -> bool:
-        """True if closed-form functions may be programs that the core runs: equations are not compiled, but could be."""
-        if self.compiled or self._compiled is False or self._why_not_compiled() is not None:
-            return False
-        try:
-            return self._written is not None
-        except (WrongType, WrongValue):     # an expression has a function that C lacks
-            return False
-
-    def _instructions(self) -> int:
-        found = self._closed_form[1].programs if self._takes_programs else None
-        return found[0].instructions if found else 0
 
     def _core_in_lanes(self, vector: str, embeds: bool = False) -> MechanismCore:
         core = self._closed_form_core(vector, embeds)

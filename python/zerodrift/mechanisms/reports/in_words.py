@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..._gateway.mechanisms.assembly import CoreAssembly
-from ...errors import WrongValue, ZerodriftError, sentence
+from ...errors import WrongType, WrongValue, ZerodriftError, sentence
 from ...symbolics.compile import compilers
 from ...symbolics.compile.closed_form_library import NO_COMPILER
 from ...systems.base import BaseSystem
@@ -42,7 +42,10 @@ class Reported(BaseSystem):
     _interpreted: Any                   # core of these
     _start: Starting
     _is_written_out: Any
-    _instructions: Any                  # of the programs of a corrected step of "rk4"; 0: there are none
+    compiled: Any
+    _compiled: Any
+    _written: Any
+    _closed_form: Any
     start_at: Any
 
     def _check_written(self) -> None: ...
@@ -86,6 +89,21 @@ class Reported(BaseSystem):
         except WrongValue as error:
             return sentence(error)
         return None
+
+    @functools.cached_property
+    def _takes_programs(self) -> bool:
+        """True if closed-form functions may be programs that the core runs: equations are not compiled, but could be."""
+        if self.compiled or self._compiled is False or self._why_not_compiled() is not None:
+            return False
+        try:
+            return self._written is not None
+        except (WrongType, WrongValue):     # an expression has a function that C lacks
+            return False
+
+    def _instructions(self) -> int:
+        """Instructions of the programs of a corrected step of "rk4"; 0: there are none."""
+        found = self._closed_form[1].programs if self._takes_programs else None
+        return found[0].instructions if found else 0
 
     def _why_interpreted(self, steps: float) -> str | None:
         if self._is_written_out or self._why_not_compiled() is not None:

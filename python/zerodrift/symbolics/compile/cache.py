@@ -61,8 +61,9 @@ def put(name: str, data: bytes) -> None:
                 folder.write(name, data)
                 return
     except OSError as error:
-        _say(f"compiled systems are not kept: {_chosen()} cannot be written ({error.strerror}). Give it space and write "
-             "permission, or let ZERODRIFT_CACHE name another folder")
+        if not name.endswith(".json"):      # which are derived anew in a fraction of a second
+            _say(f"compiled systems are not kept: {_chosen()} cannot be written ({error.strerror}). Give it space and write "
+                 "permission, or let ZERODRIFT_CACHE name another folder")
     _memory[name] = data
 
 

@@ -50,7 +50,7 @@ def choose(evaluate: Evaluate, sizes: tuple[int, int, int, int], p0: np.ndarray 
     if m > sizes[1]:
         raise Unwritten("there are more constraints than velocities")
     C = _configurations(evaluate, sizes, p0, lengths)
-    orders = _for_sets(C) if embeds else _for_places(C / _largest(C))
+    orders = [] if not len(C) else _for_sets(C) if embeds else _for_places(C / _largest(C))
     if not orders:
         raise Unwritten("constraints depend on each other at the start, or nearly")
     return orders
