@@ -146,7 +146,7 @@ def test_own_parameters_are_numbers_too():
 def test_callables_are_refused_by_the_name_of_their_element(layout, add, named):
     m = swinging()
     add(m)
-    with refused("not-portable", f"{named} is a callable, which compiled=True cannot write out"):
+    with refused("not-portable", f"{named} is a callable, of which no equations can be written"):
         m.system(layout, compiled=True)
     with refused("wrong-type", "compiled.*'yes'"):
         m.system(layout, compiled="yes")

@@ -116,8 +116,8 @@ class MechanismSystem(Reported):
     def _check_written(self) -> None:
         """Check that code can be generated: user functions must be no callables, and not read reactions."""
         if names := self._drawing.reactions():
-            raise WrongValue(f"compiled=True must have user functions of t, positions and velocities, and those of {self.name} "
-                             f"read {', '.join(names)}: take compiled=False", "not-portable")
+            raise WrongValue("equations can be written of user functions of t, positions and velocities, and those of "
+                             f"{self.name} read {', '.join(names)}", "not-portable")
         self._tables.laws.check_written()
 
     @functools.cached_property

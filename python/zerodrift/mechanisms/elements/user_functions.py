@@ -164,8 +164,9 @@ class Law:
     def check_written(self) -> None:
         """Check that code can be generated."""
         if not self.has_nodes:
-            raise WrongValue(f"{self.what} is a callable, which compiled=True cannot write out: give a SymPy expression in its "
-                             "place, or take compiled=False", "not-portable")
+            raise WrongValue(f"{self.what} is a callable, of which no equations can be written: give a SymPy expression in "
+                             "its place",
+                             "not-portable")
 
     @property
     def has_nodes(self) -> bool:
