@@ -106,7 +106,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
             first step, and steps in closed form keep their bits; ``print(sol)`` of others has what `compiled` would save.
             ZERODRIFT_COMPILE=0 in the environment refuses that. False: tables and matrices alone.
             True: the equations are written out, compiled and cached, with closed-form functions where these pay:
-            some four times faster for small mechanisms, after a second or more once. Numbers stay numbers that
+            some three times faster for small mechanisms, after a second or more once. Numbers stay numbers that
             `with_parameters` changes; which of them are zero or one, and which points of a body coincide, is in the code, and
             where that changes, it is compiled anew by itself. What the user prescribes must be numbers, SymPy expressions
             or profiles of cams: `zerodrift.table` is a function, too. Without a compiler the tables are interpreted, with a
