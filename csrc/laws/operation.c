@@ -1,3 +1,4 @@
+/* Values of single operations, those of the C library included. */
 #include "program.h"
 
 #include <math.h>

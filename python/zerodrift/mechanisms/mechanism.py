@@ -109,8 +109,8 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
             some three times faster for small mechanisms, after a second or more once. Numbers stay numbers that
             `with_parameters` changes; which of them are zero or one, and which points of a body coincide, is in the code, and
             where that changes, it is compiled anew by itself. What the user prescribes must be numbers, SymPy expressions
-            or profiles of cams: `zerodrift.table` is a function, too. Without a compiler the tables are interpreted, with a
-            `NoCompilerWarning`.
+            or profiles of cams: `zerodrift.table` is a function, too. Without a compiler equations are evaluated as with
+            None, with a `NoCompilerWarning`.
             In space it is joint coordinates that are written out whole; of absolute ones closed-form functions alone, up to some
             four bodies, and all else keeps the tables. Loops with redundant rows, such as those of full hinges, have no
             closed-form functions in either.

@@ -38,7 +38,7 @@ def closed_forms(programs: Any, orders: Sequence[Any], sizes: tuple[int, int, in
         for i, (of, has_constraints) in enumerate(described):
             made[i] = of
             for name in ("accelerate", "correct", "finish", "embed"):
-                if name == "accelerate" or name == "embed" or has_constraints:
+                if has_constraints or name in ("accelerate", "embed"):
                     setattr(made[i], name, getattr(functions, name))
         keep.append(made)
         rows.append({"unit": row.unit, "lanes": row.lanes, f"{member}s": len(orders), member: made})

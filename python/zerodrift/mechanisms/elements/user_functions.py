@@ -165,8 +165,7 @@ class Law:
         """Check that code can be generated."""
         if not self.has_nodes:
             raise WrongValue(f"{self.what} is a callable, of which no equations can be written: give a SymPy expression in "
-                             "its place",
-                             "not-portable")
+                             "its place", "not-portable")
 
     @property
     def has_nodes(self) -> bool:
