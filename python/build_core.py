@@ -1,4 +1,4 @@
-"""Builds the C core as the extension module ``zerodrift._core`` (CFFI, out of line, stable ABI)."""
+"""Builds the C core as the extension module ``zerodrift._private.core`` (CFFI, out of line, stable ABI)."""
 
 import logging
 import os
@@ -30,7 +30,7 @@ def sources() -> list[str]:
 
 def fingerprints() -> str:
     """Definitions of what the core is made of, by which a stale one is noticed, and of its layout of runs."""
-    found = runpy.run_path(str(ROOT / "python" / "zerodrift" / "_fingerprint.py"))
+    found = runpy.run_path(str(ROOT / "python" / "zerodrift" / "_private" / "fingerprint.py"))
     definitions = {"ZD_FINGERPRINT": found["core_fingerprint"](ROOT), "ZD_LAYOUT": found["layout_fingerprint"](ROOT)}
     return "".join(f'#define {name} "{value}"\n' for name, value in definitions.items())
 
@@ -78,7 +78,7 @@ def preprocess(compiler, source: str, result: str):
 ffibuilder = FFI()
 ffibuilder.cdef(declarations())
 ffibuilder.set_source(
-    "zerodrift._core",
+    "zerodrift._private.core",
     f'{fingerprints()}#include "python/evaluate.h"\n',
     sources=sources(),
     depends=[str(path.relative_to(ROOT)) for path in (ROOT / "csrc").rglob("*.h")],

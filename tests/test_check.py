@@ -8,7 +8,7 @@ import pytest
 
 import zerodrift as zd
 from support import SYSTEMS, refused
-from zerodrift import _check
+from zerodrift._private import checks
 
 BAR = SYSTEMS["four_bar"]
 SOL = zd.simulate(BAR, 0.1, step=0.01)
@@ -193,7 +193,7 @@ def test_a_system_that_is_only_described_is_not_simulated(bar):
 
 
 def test_whole_numbers_of_any_kind_count():
-    assert _check.count("n", np.int8(3)) == 3
+    assert checks.count("n", np.int8(3)) == 3
 
 
 def test_masked_and_complex_starts():

@@ -17,7 +17,7 @@ from support import ROOT
 
 README = ROOT / "README.md"
 MODULES = [module.name for module in pkgutil.walk_packages(zerodrift.__path__, "zerodrift.")
-           if not module.name.endswith(("__main__", "_core"))]
+           if not module.name.endswith("__main__")]
 
 
 @pytest.mark.parametrize("name", ["zerodrift", *MODULES])

@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 import zerodrift as zd
-from zerodrift import _gateway
 from zerodrift.__main__ import main
+from zerodrift._private import gateway
 from zerodrift.explanations import classes, codes, explain, explanations
 
 EXPLANATIONS = explanations()
@@ -41,8 +41,8 @@ def test_every_error_and_warning_is_explained():
 
 def test_every_failure_of_the_core_has_a_code_of_its_own():
     """Except what the interface never returns: wrong arguments, which Python refuses."""
-    given = [row.code for row in _gateway.base.statuses() if row.code]
-    assert len(given) == len(set(given)) == len(_gateway.base.statuses())
+    given = [row.code for row in gateway.base.statuses() if row.code]
+    assert len(given) == len(set(given)) == len(gateway.base.statuses())
     assert set(given) <= set(EXPLANATIONS)
     assert set(zd.errors.OF_STATUS.values()) <= set(given)
 
@@ -139,7 +139,7 @@ def test_errors_of_arguments_have_codes_that_are_explained():
     given = set()
     for path in Path(zd.__file__).parent.rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Call) and ast.unparse(node.func) in ("WrongValue", "WrongType", "WrongName", "_check.number"):
+            if isinstance(node, ast.Call) and ast.unparse(node.func) in ("WrongValue", "WrongType", "WrongName", "checks.number"):
                 codes_of = node.args[1:] if "Wrong" in ast.unparse(node.func) else [
                     each.value for each in node.keywords if each.arg == "code"]
                 given |= {each.value for part in codes_of for each in ast.walk(part) if isinstance(each, ast.Constant)}

@@ -8,8 +8,8 @@ import sys
 import pytest
 
 from support import ROOT
-from zerodrift import _core
-from zerodrift._fingerprint import layout_fingerprint
+from zerodrift._private import core
+from zerodrift._private.fingerprint import layout_fingerprint
 
 
 @pytest.fixture
@@ -17,7 +17,7 @@ def tree(tmp_path):
     """A copy of the source tree with its compiled core."""
     for name in ("csrc", "python"):
         shutil.copytree(ROOT / name, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info", "*.so", "*.pyd"))
-    shutil.copy(_core.__file__, tmp_path / "python" / "zerodrift")
+    shutil.copy(core.__file__, tmp_path / "python" / "zerodrift" / "_private")
     return tmp_path
 
 

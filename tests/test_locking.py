@@ -12,8 +12,8 @@ import pytest
 import tolerances as tol
 import zerodrift as zd
 from support import environment_of_tests
-from zerodrift import _locking
-from zerodrift._locking import Lock
+from zerodrift._private import locking
+from zerodrift._private.locking import Lock
 
 posix = pytest.mark.skipif(os.name == "nt", reason="signals and forks of POSIX")
 
@@ -56,7 +56,7 @@ def test_many_threads_hold_it_one_after_the_other(tmp_path):
 HOLDER = """
 import os, signal, sys
 from pathlib import Path
-from zerodrift._locking import Lock
+from zerodrift._private.locking import Lock
 
 with Lock(Path(sys.argv[1]), "held by"):
     if sys.argv[2] == "forked" and os.fork() == 0:
@@ -98,7 +98,7 @@ def test_a_lock_file_that_the_user_removed_is_not_that_of_the_next(tmp_path):
 
 def test_a_file_system_that_numbers_open_files_otherwise(tmp_path, monkeypatch):
     """There a lock file is not recognized in its place, and is taken in the end: the second is refused all the same."""
-    monkeypatch.setattr(_locking, "_is_named", lambda descriptor, path: False)
+    monkeypatch.setattr(locking, "_is_named", lambda descriptor, path: False)
     with Lock(tmp_path / "lock", "held by"), pytest.raises(zd.InUse), Lock(tmp_path / "lock", "held by"):
         pass
 
@@ -107,7 +107,7 @@ def test_a_file_system_without_locks_is_reported(tmp_path, monkeypatch):
     def lacks(descriptor):
         raise OSError(errno.ENOLCK, "No locks available")
 
-    monkeypatch.setattr(_locking, "_lock", lacks)
+    monkeypatch.setattr(locking, "_lock", lacks)
     said = r"has no locks .*No locks available.*two processes.* \[zd:no-locks\]$"
     with pytest.warns(zd.errors.NoLocksWarning, match=said), Lock(tmp_path / "lock", ""):
         pass
@@ -124,16 +124,16 @@ def test_the_calls_of_windows(tmp_path, monkeypatch):
         @staticmethod
         def locking(descriptor, what, count):
             seen.append((what, os.lseek(descriptor, 0, os.SEEK_CUR), count))
-            if what == "lock" and seen.count(("lock", _locking.BEHIND, 1)) > 1:
+            if what == "lock" and seen.count(("lock", locking.BEHIND, 1)) > 1:
                 raise PermissionError(errno.EACCES, "Permission denied")
 
-    monkeypatch.setattr(_locking, "fcntl", None)
-    monkeypatch.setattr(_locking, "msvcrt", Windows)
+    monkeypatch.setattr(locking, "fcntl", None)
+    monkeypatch.setattr(locking, "msvcrt", Windows)
     with Lock(tmp_path / "lock", "held by"):
         content = (tmp_path / "lock").read_text()
         with pytest.raises(zd.InUse, match="held by process"), Lock(tmp_path / "lock", "held by"):
             pass
     assert content.startswith("process ")
     assert len(content) < 200
-    assert seen == [("lock", _locking.BEHIND, 1)] * 2 + [("unlock", _locking.BEHIND, 1)]
+    assert seen == [("lock", locking.BEHIND, 1)] * 2 + [("unlock", locking.BEHIND, 1)]
     assert not (tmp_path / "lock").exists()

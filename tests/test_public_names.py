@@ -38,12 +38,13 @@ def test_the_module_has_what_it_lists():
 
 
 def test_help_opens_with_tasks_and_has_each_function_with_its_arguments():
-    """Also those that are imported at first use."""
+    """Functions that are imported at first use, too; of modules, those that are not private."""
     opening, _, rest = pydoc.plain(pydoc.render_doc(zd)).partition("PACKAGE CONTENTS")
     tasks = set(re.findall(r"zd\.(\w+)", opening))
     assert {"Mechanism", "System", "simulate", "plot", "view", "equilibrium", "linearize", "kinematics", "inverse_dynamics",
             "ensemble", "load", "fmu"} <= tasks
     assert tasks < set(zd.__all__)
+    assert not re.findall(r"^    (_[a-z].*)", rest.partition("SUBMODULES")[0], re.MULTILINE), "modules that are private"
     for name in zd.__all__:
         if inspect.isroutine(getattr(zd, name)):
             assert re.search(rf"^    {name}\(.*\)", rest, re.MULTILINE), name
@@ -52,7 +53,7 @@ def test_help_opens_with_tasks_and_has_each_function_with_its_arguments():
 
 
 def test_what_is_not_used_is_not_imported():
-    heavy = ["matplotlib", "sympy", "zerodrift.mechanisms", "zerodrift._gateway.mechanisms", "zerodrift.inertia",
+    heavy = ["matplotlib", "sympy", "zerodrift.mechanisms", "zerodrift._private.gateway.mechanisms", "zerodrift.inertia",
              "zerodrift.symbolics"]
     code = f"import sys, zerodrift; print([name for name in {heavy} if name in sys.modules])"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"

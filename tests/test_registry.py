@@ -4,10 +4,10 @@ import pytest
 
 import zerodrift as zd
 from support import SYSTEMS
-from zerodrift import _gateway
+from zerodrift._private import gateway
 
 TABLES = ("systems", "formulations", "integrators", "corrections")
-CARDS = {f"{table} {card.name}": card for table in TABLES for card in _gateway.cards(table)}
+CARDS = {f"{table} {card.name}": card for table in TABLES for card in gateway.cards(table)}
 
 
 @pytest.mark.parametrize("card", CARDS.values(), ids=CARDS)
@@ -20,7 +20,7 @@ def test_a_row_introduces_itself(card):
     assert card.equations
     assert card.reference
     assert not card.reference.endswith(".")
-    assert sum(parameter.size for parameter in card.parameters) <= _gateway.ROW_VALUES
+    assert sum(parameter.size for parameter in card.parameters) <= gateway.ROW_VALUES
     assert len({parameter.name for parameter in card.parameters}) == len(card.parameters)
 
 

@@ -40,7 +40,7 @@ def imported(module, source):
 
 def folder_of(module):
     """The folder that a file is in; a file directly in the package stands for itself."""
-    return ".".join(module.split(".")[:2])
+    return ".".join(module.replace("._private", "").split(".")[:2])
 
 
 def circle(graph):
@@ -223,7 +223,7 @@ def test_a_circle_is_found():
 def test_folders_of_tests_are_named_after_rooms():
     """The folders of `csrc/`, nested ones alone or with the room around them, and of `python/zerodrift/`; `run/` is `runs/`."""
     of_core = {path.parent.relative_to(ROOT / "csrc").as_posix() for path in ROOT.glob("csrc/*/**/*.c")}
-    of_package = {path.parent.name.removeprefix("_") for path in ROOT.glob("python/zerodrift/*/*.py")}
+    of_package = {path.parent.name for path in [*PACKAGE.glob("[!_]*/*.py"), *PACKAGE.glob("_private/*/*.py")]}
     rooms = {room for room in of_core if room.split("/")[0] != "run"} | of_package
     folders = {path.parent.relative_to(ROOT / "tests").as_posix() for path in ROOT.glob("tests/*/**/test_*.py")}
     assert {room for room in rooms if not {room, room.rpartition("/")[0]} & folders} == set()
@@ -241,6 +241,6 @@ def test_scripts_that_are_started_by_hand_find_what_they_import():
 
 def test_the_gateway_has_small_rooms():
     """The room of the core's systems and runs, and within it those of mechanisms and of compiled functions."""
-    rooms = {path.parent.name: len(list(path.parent.glob("*.py"))) for path in (PACKAGE / "_gateway").rglob("*.py")}
-    assert set(rooms) == {"_gateway", "compiled", "mechanisms"}
+    rooms = {path.parent.name: len(list(path.parent.glob("*.py"))) for path in (PACKAGE / "_private" / "gateway").rglob("*.py")}
+    assert set(rooms) == {"gateway", "compiled", "mechanisms"}
     assert max(rooms.values()) <= 15

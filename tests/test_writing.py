@@ -11,8 +11,8 @@ import pytest
 
 import zerodrift as zd
 from support import environment_of_tests, refused
-from zerodrift import _writing
-from zerodrift._writing import write_atomically
+from zerodrift._private import writing
+from zerodrift._private.writing import write_atomically
 
 posix = pytest.mark.skipif(os.name == "nt", reason="limits, permissions and signals of POSIX")
 resource = pytest.importorskip("resource") if os.name != "nt" else None
@@ -64,7 +64,7 @@ def test_an_older_file_survives_a_disk_that_is_full(tmp_path, name):
 
 KILLED = """
 import os, signal, sys
-from zerodrift._writing import write_atomically
+from zerodrift._private.writing import write_atomically
 
 def write(file):
     file.write(b"half of it")
@@ -88,7 +88,7 @@ def test_the_file_is_on_the_disk_before_it_has_its_name(tmp_path, monkeypatch):
     """Data are synchronized before the file is renamed, and its name after it."""
     seen, real = [], {name: getattr(os, name) for name in ("fsync", "replace")}
     for name in real:
-        monkeypatch.setattr(_writing.os, name, lambda *given, name=name: (seen.append(name), real[name](*given)))
+        monkeypatch.setattr(writing.os, name, lambda *given, name=name: (seen.append(name), real[name](*given)))
     write_atomically(tmp_path / "run", lambda file: file.write(b"new"))
     assert seen == ["fsync", "replace"] + (["fsync"] if os.name != "nt" else [])
 
@@ -113,7 +113,7 @@ def test_permissions_links_and_devices(tmp_path):
 def test_a_protected_file_and_a_folder_that_is_not_there(tmp_path, monkeypatch):
     path = tmp_path / "run"
     path.write_bytes(b"old")
-    monkeypatch.setattr(_writing.os, "access", lambda path, mode: False)      # as for all users except the superuser
+    monkeypatch.setattr(writing.os, "access", lambda path, mode: False)      # as for all users except the superuser
     with pytest.raises(PermissionError) as caught:
         write_atomically(path, lambda file: file.write(b"new"))
     assert caught.value.filename == str(path)

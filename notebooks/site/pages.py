@@ -14,7 +14,7 @@ import live
 
 import zerodrift as zd
 from zerodrift import errors, gallery
-from zerodrift._gateway.base import statuses
+from zerodrift._private.gateway.base import statuses
 from zerodrift.explanations import codes, explanations
 from zerodrift.mechanisms.elements.joints import JOINTS
 from zerodrift.mechanisms.elements.space_joints import JOINTS as SPACE_JOINTS

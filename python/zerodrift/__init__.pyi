@@ -35,9 +35,9 @@ from . import inertia as inertia
 from . import models as models
 from . import plot as plot
 from . import systems as systems
-from ._types import Baumgarte as Baumgarte
-from ._types import EnergyCorrection as EnergyCorrection
-from ._types import Projection as Projection
+from ._private.types import Baumgarte as Baumgarte
+from ._private.types import EnergyCorrection as EnergyCorrection
+from ._private.types import Projection as Projection
 from .analysis.equilibria import equilibria as equilibria
 from .analysis.equilibrium import equilibrium as equilibrium
 from .analysis.inverse_dynamics import inverse_dynamics as inverse_dynamics

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from importlib import resources
 
 from . import errors
-from ._gateway.base import statuses
+from ._private.gateway.base import statuses
 from .errors import WrongValue
 
 

@@ -7,7 +7,7 @@ from dataclasses import MISSING, fields
 from pathlib import Path
 from typing import Any
 
-from . import _check
+from ._private import checks
 from .errors import WrongValue
 from .runs.samples import mapped_samples
 from .runs.samples.saving import is_zip, read
@@ -92,5 +92,5 @@ def _system(description: dict[str, Any], path: str) -> Any:
     """System of a mechanism that was saved with a solution."""
     where, systems = f"{path}, mechanism", _module("system")
     drawing = _mechanism(description["mechanism"], where)._drawing()
-    layout = _check.choice(f"layout of {where}", description["layout"], systems.LAYOUTS)
+    layout = checks.choice(f"layout of {where}", description["layout"], systems.LAYOUTS)
     return systems.MechanismSystem(drawing, layout, description["changed"])

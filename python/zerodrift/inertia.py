@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from . import _check
+from ._private import checks
 from .errors import WrongType, WrongValue
 
 __all__ = ["Inertia", "box", "disc", "rod"]
@@ -43,7 +43,7 @@ def rod(*, length: float, mass: float | None = None, density: float | None = Non
     >>> zd.inertia.rod(mass=3.0, length=2.0)
     Inertia(mass=3.0, moment=1.0)
     """
-    length = _check.number("length", length, above=0)
+    length = checks.number("length", length, above=0)
     mass = _mass(mass, density, length, "kg/m")
     return Inertia(mass, mass * length**2 / 12)
 
@@ -71,7 +71,7 @@ def disc(*, radius: float, mass: float | None = None, density: float | None = No
     >>> zd.inertia.disc(mass=2.0, radius=0.5)
     Inertia(mass=2.0, moment=0.25)
     """
-    radius, inner = _check.number("radius", radius, above=0), _check.number("inner", inner, least=0)
+    radius, inner = checks.number("radius", radius, above=0), checks.number("inner", inner, least=0)
     if inner >= radius:
         raise WrongValue(f"inner must be less than radius, {radius:g}, not {inner:g}", "out-of-range")
     mass = _mass(mass, density, math.pi * (radius**2 - inner**2), "kg/m^2")
@@ -99,7 +99,7 @@ def box(*, width: float, height: float, mass: float | None = None, density: floa
     >>> zd.inertia.box(mass=12.0, width=3.0, height=4.0)
     Inertia(mass=12.0, moment=25.0)
     """
-    width, height = _check.number("width", width, above=0), _check.number("height", height, above=0)
+    width, height = checks.number("width", width, above=0), checks.number("height", height, above=0)
     mass = _mass(mass, density, width * height, "kg/m^2")
     return Inertia(mass, mass * (width**2 + height**2) / 12)
 
@@ -108,4 +108,4 @@ def _mass(mass: float | None, density: float | None, size: float, unit: str) -> 
     if (mass is None) == (density is None):
         raise WrongType(f"one of mass, in kg, and density, in {unit}, is needed, not {'both' if mass is not None else 'none'}",
                         "conflicting-arguments")
-    return _check.number("mass", mass, above=0) if density is None else _check.number("density", density, above=0) * size
+    return checks.number("mass", mass, above=0) if density is None else checks.number("density", density, above=0) * size

@@ -9,7 +9,7 @@ import zerodrift as zd
 from lanes import rows_of
 from large_mechanisms import four_bars
 from support import SYSTEMS
-from zerodrift import _gateway
+from zerodrift._private import gateway
 from zerodrift.ensembles.batch import batch_of
 from zerodrift.ensembles.part import BY_CORE
 from zerodrift.ensembles.plan import checked
@@ -74,14 +74,14 @@ def test_parameters_stand_in_tables():
 
 
 def test_runs_that_are_stopped_say_so():
-    stop = _gateway.Stop()
+    stop = gateway.Stop()
     stop.set()
     assert not len(made(zd.systems.four_bar(), 0.1, {"gravity": [1.0, 2.0]}, step=0.01, stop=stop).rows)
 
 
 def test_long_runs_are_stopped_within_them():
     """A run of 10^10 steps; one that has ended would have its samples."""
-    stop = _gateway.Stop()
+    stop = gateway.Stop()
     timer = threading.Timer(0.05, stop.set)
     timer.start()
     assert not len(made(zd.systems.four_bar(), 1e7, {"gravity": [1.0]}, step=0.001, save_every=10**9, stop=stop).rows)

@@ -8,10 +8,10 @@ from sympy.physics.mechanics import dynamicsymbols
 import zerodrift as zd
 from lanes import ALONE, LANES
 from symbolic_counterparts import arm
-from zerodrift import _gateway
+from zerodrift._private import gateway
 from zerodrift.runs.open.diagnosis import unwarned
 
-pytestmark = pytest.mark.skipif(not _gateway.has_lanes("baseline"), reason="the compiler has no vectors")
+pytestmark = pytest.mark.skipif(not gateway.has_lanes("baseline"), reason="the compiler has no vectors")
 TIMES = np.linspace(0.05, 1.0, 11)
 ENERGIES = ("energy_corrections", "energy_skipped")
 LOOKS = ("unresolved", "unresolved_time", "part", "stiff")

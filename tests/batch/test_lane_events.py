@@ -6,7 +6,7 @@ import sympy as sp
 
 import zerodrift as zd
 from lanes import ALONE, LANES
-from zerodrift import _gateway
+from zerodrift._private import gateway
 from zerodrift.ensembles import batch as batches
 
 BAR = zd.systems.four_bar()
@@ -26,7 +26,7 @@ COURSES = {"rk4": {"step": 0.01}, "seldom": {"step": 0.01, "save_every": 7}, "wi
            "long": {"integrator": "dop853", "rtol": 1e-4, "atol": 1e-4, "t_eval": TIMES},
            "longer": {"integrator": "dormand_prince", "rtol": 1e-4, "atol": 1e-4, "t_eval": TIMES}}
 ALIKE = 1e-9        # rounding grows over two seconds; the tolerance of adaptive steps, whose errors include it
-pytestmark = pytest.mark.skipif(not _gateway.has_lanes("baseline"), reason="the compiler has no vectors")
+pytestmark = pytest.mark.skipif(not gateway.has_lanes("baseline"), reason="the compiler has no vectors")
 
 
 def ensemble(events, starts=STARTS, system=BAR, **options):

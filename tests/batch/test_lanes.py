@@ -7,7 +7,7 @@ import energy_models
 import symbolic_counterparts
 import zerodrift as zd
 from lanes import ALONE, LANES, UNITS, made, plan_of, rows_of
-from zerodrift import _gateway
+from zerodrift._private import gateway
 
 KINDS = {name: getattr(zd.systems, name) for name in ("four_bar", "oscillator", "pendulum", "knife_edge")} | {
     "slider_crank": lambda: energy_models.slider_crank().starting(v0=[1.0, -0.5, 0.0]), "arm": symbolic_counterparts.arm,
@@ -20,7 +20,7 @@ COURSES = {"rk4": {"step": 0.01}, "heun": {"step": 0.01, "integrator": "heun", "
            "every third": {"step": 0.007, "stabilization": zd.Projection(every=3), "t_eval": TIMES},
            "every other": {"integrator": "dop853", "rtol": 1e-8, "stabilization": zd.Projection(every=2), "t_eval": TIMES},
            "every seventh": {"step": 0.01, "stabilization": zd.Projection(every=7), "save_every": 3}}
-pytestmark = pytest.mark.skipif(not _gateway.has_lanes("baseline"), reason="the compiler has no vectors")
+pytestmark = pytest.mark.skipif(not gateway.has_lanes("baseline"), reason="the compiler has no vectors")
 
 
 def names_of(system):

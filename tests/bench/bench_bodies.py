@@ -26,7 +26,7 @@ from bench_structure import memory
 from measuring import record
 from structured import four_bars
 from support import handed
-from zerodrift import _gateway
+from zerodrift._private import gateway
 
 ROUNDS, WINDOWS, ANGLE, STEP = 4, 40, -0.7, 0.01
 FLAGS = ["-O3", "-std=c11", "-ffp-contract=off", "-D_GNU_SOURCE", f"-I{zd.get_include()}"]
@@ -67,8 +67,8 @@ class Steps:
     def measure(self, windows):
         options = handed(formulation=list(zd.formulations()).index("schur"), integrator=list(zd.integrators()).index("rk4"),
                          step=self.step, t1=windows * self.steps * self.step, save_every=self.steps,
-                         vector=_gateway.PROCESSOR_UNIT)
-        run, row = _gateway.Run(self.system._core, options, *self.start), _gateway.Record(self.system._core, 1)
+                         vector=gateway.PROCESSOR_UNIT)
+        run, row = gateway.Run(self.system._core, options, *self.start), gateway.Record(self.system._core, 1)
         for _ in range(windows):
             begin = time.process_time()
             status = run.advance(row, 60.0)
@@ -139,7 +139,7 @@ def of_creation(links=10_000):
         drawn = hanging_links(links)
         begin = time.process_time()
         system = drawn.system("absolute")
-        run = _gateway.Run(system._core, options, system.p0, system.v0)
+        run = gateway.Run(system._core, options, system.p0, system.v0)
         least = min(least, time.process_time() - begin)
         del run
     yield f's of m.system("absolute"), its start and the creation of a run, chain of {links:,} links', least, 0.5
@@ -155,9 +155,9 @@ def referenced():
 def touched(system, bodies, integrator, **corrections):
     """Bytes for each body of the pages that sixteen steps in a row use, the least of some, less those that asking uses."""
     options = {"t1": 1.0, "step": STEP, "rtol": 1e-6, "atol": 1e-9, "save_every": 100, "correction": corrections,
-               "vector": _gateway.PROCESSOR_UNIT, "formulation": list(zd.formulations()).index("schur"),
+               "vector": gateway.PROCESSOR_UNIT, "formulation": list(zd.formulations()).index("schur"),
                "integrator": list(zd.integrators()).index(integrator)}
-    run, row = _gateway.Run(system._core, _gateway.settings(options), system.p0, system.v0), _gateway.Record(system._core, 1)
+    run, row = gateway.Run(system._core, gateway.settings(options), system.p0, system.v0), gateway.Record(system._core, 1)
     least = np.inf
     for _ in range(6):
         used = []

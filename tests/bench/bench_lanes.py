@@ -68,10 +68,10 @@ def runs(end=END, count=RUNS, outputs=("alpha1", "alpha2", "alpha3"), **options)
 
 def without_lanes(call):
     """A callable whose runs are made by the core one by one."""
-    by_itself = functools.partial(batch._gateway.run_batch, lanes=False)
+    by_itself = functools.partial(batch.gateway.run_batch, lanes=False)
 
     def made():
-        with mock.patch.object(batch._gateway, "run_batch", by_itself):
+        with mock.patch.object(batch.gateway, "run_batch", by_itself):
             return call()
     return made
 

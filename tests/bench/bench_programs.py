@@ -36,7 +36,7 @@ import sympy, sympy.physics.mechanics
 import zerodrift as zd
 from zerodrift.symbolics import define
 from zerodrift.symbolics.compile import closed_form_library
-from zerodrift._gateway import PROCESSOR_UNIT
+from zerodrift._private.gateway import PROCESSOR_UNIT
 sys.path.insert(0, sys.argv[3])
 import energy_models
 zd.symbolic

@@ -20,7 +20,7 @@ from measuring import record
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from browser import Browser
-from zerodrift import _gateway
+from zerodrift._private import gateway
 from zerodrift.ensembles.plan import checked
 from zerodrift.ensembles.run_range import run_range
 from zerodrift.ensembles.runs import Runs
@@ -58,7 +58,7 @@ def of_ctrl_c():
 
 
 def of_a_stop():
-    stop, runs = _gateway.Stop(), Runs(BAR, {"gravity": [1.0]}, None, None, None, (), assembles=True)
+    stop, runs = gateway.Stop(), Runs(BAR, {"gravity": [1.0]}, None, None, None, (), assembles=True)
     sent = after_a_while(stop.set)
     run_range(checked(runs, 1e6, None, None, keeps=False, step=1e-3, save_every=10**8), 0, 1, stop)
     return (time.perf_counter() - sent[0]) / BATCH_SLICE

@@ -18,7 +18,7 @@ import zerodrift as zd
 from measuring import RESULTS, least
 from structured import chain, four_bars
 from support import handed
-from zerodrift import _gateway
+from zerodrift._private import gateway
 
 ROUNDS, SECONDS, STEP = 7, 0.05, 1e-4
 CASES = {
@@ -46,7 +46,7 @@ def memory(system, p, v, formulation):
     """KiB that a run takes when it is created; it is let go at once."""
     options = handed(formulation=list(zd.formulations()).index(formulation), step=STEP)
     before = allocated()
-    run = _gateway.Run(system._core, options, p, v)
+    run = gateway.Run(system._core, options, p, v)
     taken = allocated() - before
     del run
     return taken / 1024

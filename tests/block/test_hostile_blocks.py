@@ -12,7 +12,7 @@ import zerodrift as zd
 from core_objects import linked, needs_compiler
 from covering import draws
 from support import ROOT, refused
-from zerodrift._gateway.mechanisms.blocks import SECTIONS, BlockCore
+from zerodrift._private.gateway.mechanisms.blocks import SECTIONS, BlockCore
 
 CHANGES = draws(400, 4000)      # of each block; .ci/sanitize makes 4000, under sanitizers
 

@@ -182,7 +182,7 @@ def test_runs_that_an_executor_cancels_are_lost_with_an_error(tmp_path):
 
 def test_what_a_worker_lacks_is_said(monkeypatch):
     stamp = {"vector": "avx512", "version": executors.version()}
-    monkeypatch.setattr(executors._gateway, "PROCESSOR_UNIT", 1)
+    monkeypatch.setattr(executors.gateway, "PROCESSOR_UNIT", 1)
     with pytest.raises(zd.WorkerLost, match=r'no avx512, .* vector="avx2" \| "baseline" .* baseline and avx2'):
         executors.check_stamp(stamp)
     with pytest.raises(zd.WorkerLost, match="another zerodrift"):

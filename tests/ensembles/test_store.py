@@ -17,7 +17,7 @@ import tolerances as tol
 import zerodrift as zd
 from small_studies import lowest, pendulum, slow, waits
 from support import environment_of_tests, refused
-from zerodrift import _writing
+from zerodrift._private import writing
 from zerodrift.ensembles import store as module
 from zerodrift.runs.open.identity import Identity
 
@@ -99,7 +99,7 @@ def test_a_part_is_there_as_a_whole_or_not_at_all(tmp_path, monkeypatch):
     study = zd.ensemble(pendulum, 1.0, store=tmp_path / "study", chunk=5, **STUDY)
     (tmp_path / "study" / "runs_000000005_000000010.npz").unlink()
     with monkeypatch.context() as patched:
-        patched.setattr(_writing.os, "replace", full)
+        patched.setattr(writing.os, "replace", full)
         with pytest.raises(OSError, match="no space left"):
             zd.ensemble(pendulum, 1.0, store=tmp_path / "study", chunk=5, **STUDY)
     assert not [path for path in (tmp_path / "study").iterdir() if path.name.startswith(".")]
@@ -121,10 +121,10 @@ def test_what_others_look_at_is_renamed_a_moment_later_on_windows(tmp_path, monk
             raise PermissionError("in use")
         replace(source, target)
 
-    monkeypatch.setattr(_writing, "AS_WINDOWS", True)
-    monkeypatch.setattr(_writing, "PAUSES", (0.0, 0.0, 0.0))
-    monkeypatch.setattr(_writing.os, "replace", in_use)
-    if refusals > len(_writing.PAUSES):
+    monkeypatch.setattr(writing, "AS_WINDOWS", True)
+    monkeypatch.setattr(writing, "PAUSES", (0.0, 0.0, 0.0))
+    monkeypatch.setattr(writing.os, "replace", in_use)
+    if refusals > len(writing.PAUSES):
         with pytest.raises(PermissionError, match="in use"):
             zd.ensemble(pendulum, 1.0, store=tmp_path / "study", **STUDY)
         return
@@ -295,7 +295,7 @@ def test_the_vector_unit_of_the_beginning_stays(tmp_path, monkeypatch):
     assert not zd.ensemble(zd.systems.four_bar(), 0.3, **study).failed.any()
     path = tmp_path / "study" / "manifest.json"
     path.write_text(path.read_text().replace('"baseline"', '"avx512"'))
-    monkeypatch.setattr(module._gateway, "PROCESSOR_UNIT", 0)
+    monkeypatch.setattr(module.gateway, "PROCESSOR_UNIT", 0)
     with refused("other-study", '"avx2".*"baseline"'):
         zd.ensemble(zd.systems.four_bar(), 0.3, **study)
 

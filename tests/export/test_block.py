@@ -12,8 +12,8 @@ from scipy.special import ellipk
 import zerodrift as zd
 from every_model import IN_SPACE, MECHANISMS
 from support import refused
-from zerodrift import _gateway
-from zerodrift._gateway.mechanisms.blocks import SECTIONS, BlockCore
+from zerodrift._private import gateway
+from zerodrift._private.gateway.mechanisms.blocks import SECTIONS, BlockCore
 
 STEPS, STEP = 40, 1e-3
 t = sp.Symbol("t")
@@ -25,7 +25,7 @@ def run(core, duration, **inputs):
     options = core.settings
     options.t1 = options.t0 + duration
     given = SimpleNamespace(c=options.inputs) if options.inputs else None
-    record, made = _gateway.Record(core, 4000), _gateway.Run(core, options, *core.start, inputs=given)
+    record, made = gateway.Record(core, 4000), gateway.Run(core, options, *core.start, inputs=given)
     for name, value in inputs.items():
         core.set_input(f"drive.{name}", value)
     assert made.advance(record, 1e3) == 0
@@ -107,8 +107,8 @@ def test_a_table_left_ends_the_run_with_a_sentence():
     core = BlockCore(zd.block(linkage(torque=zd.table([0, 0.01], [1, 2])), step=STEP, outputs=[]))
     options = core.settings
     options.t1 = 0.1
-    made, record = _gateway.Run(core, options, *core.start), _gateway.Record(core, 200)
-    assert made.advance(record, 1e3) == _gateway.CALLBACK
+    made, record = gateway.Run(core, options, *core.start), gateway.Record(core, 200)
+    assert made.advance(record, 1e3) == gateway.CALLBACK
     assert "a table beyond its ends" in made.message
 
 
@@ -142,8 +142,8 @@ def test_recorded_outputs_are_those_of_simulate():
     sol = zd.simulate(system, 10 * STEP, step=STEP, vector="baseline", closed_form=False, outputs=names)
     options = core.settings
     options.t1 = 10 * STEP
-    record = _gateway.Record(core, 20, type("Width", (), {"width": 5}))
-    assert _gateway.Run(core, options, *core.start).advance(record, 1e3) == 0
+    record = gateway.Record(core, 20, type("Width", (), {"width": 5}))
+    assert gateway.Run(core, options, *core.start).advance(record, 1e3) == 0
     np.testing.assert_array_equal(record.take()["outputs"], np.column_stack([sol[name] for name in names]))
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 import zerodrift as zd
 from support import refused
-from zerodrift._gateway.mechanisms.blocks import SECTIONS, BlockCore
+from zerodrift._private.gateway.mechanisms.blocks import SECTIONS, BlockCore
 
 LIMITS = {"coupler.length": (0.9, 1.2), "coupler.mass": (2.0, 8.0), "crank.length": (0.25, 0.35)}
 

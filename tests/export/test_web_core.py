@@ -15,7 +15,7 @@ import tolerances as tol
 import zerodrift as zd
 from analysis.test_reach_of_drives import driven
 from browser import Browser, needs_chromium
-from zerodrift._rotations import rotation_of
+from zerodrift._private.rotations import rotation_of
 from zerodrift.errors import sentence
 from zerodrift.export import wasm
 from zerodrift.export.block import choose, written

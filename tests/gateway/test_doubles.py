@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from support import refused
-from zerodrift import _gateway
+from zerodrift._private import gateway
 
 
 @pytest.mark.parametrize(("array", "message"), [
@@ -17,15 +17,15 @@ from zerodrift import _gateway
 ])
 def test_the_gateway_takes_contiguous_doubles_only(array, message):
     with refused("shape", message):
-        _gateway.doubles(array, 3)
+        gateway.doubles(array, 3)
 
 
 def test_the_gateway_writes_to_writable_memory_only():
     array = np.zeros(3)
     array.flags.writeable = False
-    assert len(_gateway.doubles(array, 3)) == 3
+    assert len(gateway.doubles(array, 3)) == 3
     with refused("shape"):
-        _gateway.doubles(array, 3, writable=True)
+        gateway.doubles(array, 3, writable=True)
 
 
 TABLE = np.arange(12.0).reshape(4, 3)
@@ -33,7 +33,7 @@ TABLE = np.arange(12.0).reshape(4, 3)
 
 def test_columns_of_a_table_are_read_in_place():
     """From the address of their first entry."""
-    pointer = _gateway.base.strided_doubles(TABLE[:, 1:], 8)
+    pointer = gateway.base.strided_doubles(TABLE[:, 1:], 8)
     assert [pointer[3 * row + i] for row in range(4) for i in range(2)] == TABLE[:, 1:].ravel().tolist()
 
 
@@ -42,4 +42,4 @@ def test_columns_of_a_table_are_read_in_place():
 def test_columns_of_other_memory_are_refused(array):
     """Other types of numbers, rows that are not contiguous or run backwards, another size, and unaligned memory."""
     with refused("shape", "expected 8"):
-        _gateway.base.strided_doubles(array, 8)
+        gateway.base.strided_doubles(array, 8)

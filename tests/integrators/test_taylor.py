@@ -188,7 +188,7 @@ def test_events_between_steps(pendulum):
 
 
 def test_the_bits_are_those_of_any_vector_unit(linkage):
-    units = ("baseline", "avx2", "avx512")[:zd._gateway.PROCESSOR_UNIT + 1]
+    units = ("baseline", "avx2", "avx512")[:zd._private.gateway.PROCESSOR_UNIT + 1]
     first, *others = [linkage._with_series(linkage._core, unit).series(20, 0.0, linkage.p0, linkage.v0) for unit in units]
     for other in others:
         np.testing.assert_array_equal(np.hstack(first[:2]), np.hstack(other[:2]))

@@ -17,7 +17,7 @@ from zerodrift.mechanisms.elements.table_forces import MOMENT
 STUB = Path(table_verbs.__file__).with_suffix(".pyi")
 HEAD = '''"""Methods of `Mechanism` made from the core's tables; written by tests/support/stubs.py."""
 
-from ..._types import {types}
+from ..._private.types import {types}
 from ..elements import forces
 from ..elements.bodies import Body, Point
 from ..elements.joints import Joint

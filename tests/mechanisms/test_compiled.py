@@ -17,7 +17,7 @@ from mechanisms.known import four_bar
 from mechanisms.random_mechanisms import Maker
 from support import refused
 from tolerances import EPS
-from zerodrift._gateway.mechanisms.plane import element_kinds, joint_kinds
+from zerodrift._private.gateway.mechanisms.plane import element_kinds, joint_kinds
 
 TERM_ROUNDING = 1024 * EPS  # the same sums in another order, of a chain of four bodies
 MOVED = 1e-10               # after 0.1 s: rounding, multiplied by the motion and by solves of condition 1e3

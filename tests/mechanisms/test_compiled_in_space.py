@@ -14,7 +14,7 @@ from mechanisms.plain_space import Plain
 from mechanisms.test_compiled import TERM_ROUNDING, differences
 from mechanisms.test_files_of_space import everything
 from support import refused
-from zerodrift._gateway.mechanisms.space import joint_kinds
+from zerodrift._private.gateway.mechanisms.space import joint_kinds
 from zerodrift.mechanisms.elements.immutable import amend
 from zerodrift.mechanisms.equations import generated_code
 from zerodrift.symbolics.compile import shared_library

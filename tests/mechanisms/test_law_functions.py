@@ -7,7 +7,7 @@ import pytest
 import sympy as sp
 
 import zerodrift as zd
-from zerodrift._gateway.mechanisms.element_tables import law_sizes
+from zerodrift._private.gateway.mechanisms.element_tables import law_sizes
 from zerodrift.errors import ZerodriftError
 from zerodrift.mechanisms.equations import function_programs
 from zerodrift.mechanisms.equations.function_calls import Laws

@@ -7,8 +7,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import zerodrift as zd
-from zerodrift._gateway import Record, Run
-from zerodrift._gateway.mechanisms.blocks import BlockCore
+from zerodrift._private.gateway import Record, Run
+from zerodrift._private.gateway.mechanisms.blocks import BlockCore
 
 JOINTS = "ABCD"
 PLACES = np.array([(0.0, 0, 0), (0, 0.4, 0), (1.2, 0.9, 0), (1.0, 0, 0)])

@@ -6,7 +6,7 @@ import pytest
 import zerodrift as zd
 from reference_files import table
 from support import assert_close
-from zerodrift._rotations import rotation_of
+from zerodrift._private.rotations import rotation_of
 
 EXACT = {"integrator": "dop853", "step": None, "rtol": 1e-12, "atol": 1e-12}
 

@@ -6,7 +6,7 @@ import subprocess
 import numpy as np
 import pytest
 import sympy
-from zerodrift._core import ffi
+from zerodrift._private.core import ffi
 
 import tolerances as tol
 import zerodrift as zd

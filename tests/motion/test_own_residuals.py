@@ -9,7 +9,7 @@ import tolerances as tol
 import zerodrift as zd
 from native_systems import PENDULUM, compile_text, needs_compiler
 from support import assert_close
-from zerodrift._gateway.compiled.functions import load_library
+from zerodrift._private.gateway.compiled.functions import load_library
 
 pytestmark = needs_compiler
 

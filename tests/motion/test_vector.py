@@ -4,7 +4,7 @@ import os
 
 import numpy as np
 import pytest
-from zerodrift._core import lib
+from zerodrift._private.core import lib
 
 import symbolic_counterparts
 import tolerances as tol
@@ -61,7 +61,7 @@ def test_the_core_knows_which_units_there_are():
 def test_what_there_is_not_is_refused(monkeypatch):
     with refused("unknown-choice", r"^vector must be "):
         run("built in", vector="neon")
-    monkeypatch.setattr(zd._gateway, "PROCESSOR_UNIT", 1)
+    monkeypatch.setattr(zd._private.gateway, "PROCESSOR_UNIT", 1)
     with refused("wrong-value", r"^vector must be 'baseline' or 'avx2', which this processor has, not 'avx512' "):
         run("built in", vector="avx512")
     monkeypatch.setenv("ZERODRIFT_VECTOR", "avx1024")

@@ -7,8 +7,8 @@ from sympy.physics.mechanics import dynamicsymbols
 
 import zerodrift as zd
 from support import refused
-from zerodrift import _gateway
-from zerodrift._gateway.known_events import COORDINATE, MEASURE, VELOCITY, Reading
+from zerodrift._private import gateway
+from zerodrift._private.gateway.known_events import COORDINATE, MEASURE, VELOCITY, Reading
 from zerodrift.errors import ZerodriftError
 from zerodrift.symbolics.compile import compilers
 
@@ -108,9 +108,9 @@ def test_names_bound_for_a_measure_are_refused():
 @pytest.mark.parametrize("reading", [Reading(COORDINATE, 3), Reading(VELOCITY, -1), Reading(MEASURE, 0)])
 def test_the_core_refuses_to_read_what_is_not_there(reading):
     bar = zd.systems.four_bar()
-    known = zd.runs.arguments.events.Watched("events", None, 0, 0, _gateway.KnownEvent((reading,), 0.0))
-    watcher = _gateway.Watcher(bar._core, [known], bar._core)
+    known = zd.runs.arguments.events.Watched("events", None, 0, 0, gateway.KnownEvent((reading,), 0.0))
+    watcher = gateway.Watcher(bar._core, [known], bar._core)
     chosen = {"formulation": "schur", "integrator": "rk4", "stabilization": None, "energy": None, "step": 0.01, "save_every": 1}
     options = zd.runs.arguments.settings.core_settings((0.0, 1.0), chosen)
     with pytest.raises(ZerodriftError, match="an event reads what the system does not have"):
-        _gateway.Run(bar._core, options, np.array(bar.p0), np.array(bar.v0), watcher)
+        gateway.Run(bar._core, options, np.array(bar.p0), np.array(bar.v0), watcher)

@@ -5,7 +5,7 @@ import pickle
 
 import numpy as np
 import pytest
-from zerodrift._core import ffi, lib
+from zerodrift._private.core import ffi, lib
 
 import zerodrift as zd
 from large_mechanisms import four_bars
@@ -13,7 +13,7 @@ from mechanisms.every_element import machinery
 from mechanisms.plain_space import Plain
 from native_systems import PENDULUM, compile_text, needs_compiler
 from support import handed, refused
-from zerodrift import _gateway
+from zerodrift._private import gateway
 
 OUTPUTS = ["C.force", "crank.angle", "coupler.end.velocity.y", "drive.power", "A.torque"]
 
@@ -146,8 +146,8 @@ def test_what_is_not_there_is_named(outputs, code, sentence):
 
 def test_what_is_not_asked_for_takes_no_memory():
     core = four_bar().system()._core
-    assert _gateway.Record(core, 10).c.outputs == ffi.NULL
-    assert "outputs" not in _gateway.Record(core, 10).take()
+    assert gateway.Record(core, 10).c.outputs == ffi.NULL
+    assert "outputs" not in gateway.Record(core, 10).take()
 
 
 # ---- what the core refuses ----
@@ -159,7 +159,7 @@ def created(core, **changed):
     options = handed()
     options.outputs = outputs
     system = four_bar(speed=3.0).system() if core is None else core
-    _gateway.Run(system._core, options, system.p0, system.v0)
+    gateway.Run(system._core, options, system.p0, system.v0)
 
 
 @pytest.mark.parametrize(("changed", "sentence"), [

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from support import assert_same_bits, handed, motion
-from zerodrift import _gateway
+from zerodrift._private import gateway
 
 
 @pytest.mark.parametrize("times", [None, np.array([0.05, 0.07, 0.5, 1.0])], ids=["steps", "times"])
@@ -13,14 +13,14 @@ def test_records_of_any_size_hold_the_same_rows(bar, times):
     options = handed() if times is None else handed(t_eval=times)
     rows = []
     for capacity in (1, 2, 50):
-        run, collected = _gateway.Run(bar._core, options, bar.p0, bar.v0), []
-        assert run.advance(_gateway.Record(bar._core, 0), 1.0) == _gateway.FULL
-        status = _gateway.FULL
-        while status == _gateway.FULL:
-            record = _gateway.Record(bar._core, capacity)
+        run, collected = gateway.Run(bar._core, options, bar.p0, bar.v0), []
+        assert run.advance(gateway.Record(bar._core, 0), 1.0) == gateway.FULL
+        status = gateway.FULL
+        while status == gateway.FULL:
+            record = gateway.Record(bar._core, capacity)
             status = run.advance(record, 1.0)
             collected.append(record.take())
-        assert status == _gateway.DONE
+        assert status == gateway.DONE
         rows.append({name: np.concatenate([part[name] for part in collected]) for name in collected[0]})
     assert len(rows[0]["t"]) == (11 if times is None else 4)
     assert run.results().energy_error == np.abs(rows[1]["energy_violation"]).max() > 0
@@ -40,10 +40,10 @@ def test_saving_less_changes_no_bit(system, formulation, integrator, every):
 
 def test_a_record_that_grows_joins_all_its_blocks(bar):
     """The first block is one array, the others have an array for each column."""
-    grown, wide = (_gateway.Record(bar._core, capacity) for capacity in (1, 20))
+    grown, wide = (gateway.Record(bar._core, capacity) for capacity in (1, 20))
     for record in (grown, wide):
-        run = _gateway.Run(bar._core, handed(), bar.p0, bar.v0)
-        while run.advance(record, 1.0) == _gateway.FULL:
+        run = gateway.Run(bar._core, handed(), bar.p0, bar.v0)
+        while run.advance(record, 1.0) == gateway.FULL:
             record.grow()
         record.join()
     one, other = grown.take(), wide.take()

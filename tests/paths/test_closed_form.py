@@ -4,7 +4,7 @@ import functools
 
 import numpy as np
 import pytest
-from zerodrift._core import ffi
+from zerodrift._private.core import ffi
 
 import energy_models
 import symbolic_counterparts
@@ -13,7 +13,7 @@ import zerodrift as zd
 from native_systems import needs_compiler
 from random_symbolic import random_system
 from support import INTEGRATORS, assert_close, refused
-from zerodrift import _gateway
+from zerodrift._private import gateway
 from zerodrift.runs.arguments.settings import VECTOR_UNITS
 
 sp = pytest.importorskip("sympy")
@@ -258,7 +258,7 @@ def test_bifurcations_are_judged_alike(name, on_singular, options):
     general, closed_form = both(bar(NEAR[name], 0.0, 2 * np.pi), 1.0, on_singular=on_singular, **options)
     assert closed_form.success == general.success
     if not general.success:     # so near to it, rounding decides which of two sentences says so
-        errors = {zd.ZerodriftError, type(_gateway.error_of(general.status, "")), type(_gateway.error_of(closed_form.status, ""))}
+        errors = {zd.ZerodriftError, type(gateway.error_of(general.status, "")), type(gateway.error_of(closed_form.status, ""))}
         assert errors <= {zd.ZerodriftError, zd.Bifurcation, zd.BranchJump}
         assert abs(closed_form.t[-1] - general.t[-1]) < 0.02
     left = closed_form.stats["steps"] - closed_form.stats["closed_form_steps"]
@@ -360,7 +360,7 @@ def test_a_value_between_steps_does_without_them_too():
 
 
 def test_perturbed_systems_have_none():
-    core = _gateway.perturbed(system("four_bar")._closed_form_core(), 1e-8, 1)
+    core = gateway.perturbed(system("four_bar")._closed_form_core(), 1e-8, 1)
     assert core.c.closed_forms == 0
 
 

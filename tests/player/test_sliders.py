@@ -6,7 +6,7 @@ import pytest
 import zerodrift as zd
 from support import refused
 from zerodrift import gallery
-from zerodrift._gateway.mechanisms.blocks import BlockCore
+from zerodrift._private.gateway.mechanisms.blocks import BlockCore
 from zerodrift.export import block
 from zerodrift.player.live import live_view
 

@@ -10,7 +10,7 @@ import zerodrift as zd
 from native_systems import needs_compiler
 from structured import Bodies, bodies_library, chain, four_bars
 from support import FORMULATIONS, along, assert_close, condition, numbers, refused, solved
-from zerodrift._gateway.compiled.functions import load_library
+from zerodrift._private.gateway.compiled.functions import load_library
 
 STEPS = dict(step=0.01)
 SPAN = 0.2

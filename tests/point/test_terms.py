@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from support import consistent_states
-from zerodrift._gateway import TERMS
+from zerodrift._private.gateway import TERMS
 from zerodrift.systems.native import SLOT
 
 

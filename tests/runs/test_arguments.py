@@ -2,24 +2,24 @@
 
 import numpy as np
 import pytest
-from zerodrift._core import ffi
+from zerodrift._private.core import ffi
 
 import zerodrift as zd
 from support import handed
-from zerodrift import _gateway
+from zerodrift._private import gateway
 
 
 def created(options, core=None):
     pendulum = zd.systems.pendulum()
-    _gateway.Run(core or pendulum._core, options, pendulum.p0, pendulum.v0)
+    gateway.Run(core or pendulum._core, options, pendulum.p0, pendulum.v0)
 
 
 def between(core, options, p, v):
     t = np.array([options.t0, options.t1])
-    return _gateway.states_between(core, options, t, np.vstack([p, p]), np.vstack([v, v]), None, False, np.array([t.mean()]))
+    return gateway.states_between(core, options, t, np.vstack([p, p]), np.vstack([v, v]), None, False, np.array([t.mean()]))
 
 
-ADAPTIVE = _gateway.ADAPTIVE_STEPS
+ADAPTIVE = gateway.ADAPTIVE_STEPS
 DOP853 = list(zd.integrators()).index("dop853")
 
 
@@ -71,24 +71,24 @@ def test_parameters_that_the_core_refuses(name, parameter):
     ({"nv": 10**9}, "1 to 8192 coordinates"),
     ({"mh": -1}, "at most 8192 constraints"),
     ({"mn": 8193}, "at most 8192 constraints"),
-    ({"mn": 2, "provides": sum(_gateway.TERMS[name].bit for name in ("M", "Phi", "C", "xi", "D", "gamma"))},
+    ({"mn": 2, "provides": sum(gateway.TERMS[name].bit for name in ("M", "Phi", "C", "xi", "D", "gamma"))},
      "a complement D must not have more constraints than velocities"),
     ({"scratch": -1}, "scratch"),
     ({"provides": 0}, r"must have evaluate\(\) and provide M"),
     ({"nv": 3}, "as many velocities as coordinates"),
-    ({"provides": _gateway.TERMS["M"].bit}, "must provide Phi"),
-    ({"provides": _gateway.TERMS["M"].bit | _gateway.TERMS["Phi"].bit}, "must provide C and xi"),
+    ({"provides": gateway.TERMS["M"].bit}, "must provide Phi"),
+    ({"provides": gateway.TERMS["M"].bit | gateway.TERMS["Phi"].bit}, "must provide C and xi"),
     ({"without": "gamma"}, "must provide both the complement D and gamma, or neither"),
 ], ids=str)
 def test_systems_that_the_core_refuses(changed, sentence):
     core = zd.systems.pendulum()._core
     without = changed.pop("without", None)
     if without:
-        core.c.provides = core.c.provides & ~_gateway.TERMS["D"].bit & ~_gateway.TERMS["gamma"].bit | _gateway.TERMS["D"].bit
+        core.c.provides = core.c.provides & ~gateway.TERMS["D"].bit & ~gateway.TERMS["gamma"].bit | gateway.TERMS["D"].bit
     for name, value in changed.items():
         setattr(core.c, name, value)
-    for call in (lambda: created(handed(), core), lambda: _gateway.acceleration(core, 0, 0, 0.0, np.zeros(2), np.zeros(2)),
-                 lambda: _gateway.project(core, handed(), 0.0, np.zeros(2), np.zeros(2)),
+    for call in (lambda: created(handed(), core), lambda: gateway.acceleration(core, 0, 0, 0.0, np.zeros(2), np.zeros(2)),
+                 lambda: gateway.project(core, handed(), 0.0, np.zeros(2), np.zeros(2)),
                  lambda: between(core, handed(), np.zeros(2), np.zeros(2))):
         with pytest.raises(zd.ZerodriftError, match=sentence):
             call()
@@ -104,7 +104,7 @@ def test_a_start_that_is_not_finite_is_refused_by_the_core():
     core = zd.System(1, mass=[[1.0]], p0=[0.0])._core
     for p, v in ((np.nan, 0.0), (0.0, np.inf)):
         with pytest.raises(zd.Diverged):
-            _gateway.Run(core, handed(), np.array([p]), np.array([v]))
+            gateway.Run(core, handed(), np.array([p]), np.array([v]))
 
 
 @pytest.mark.parametrize(("changed", "sentence"), [
@@ -114,11 +114,11 @@ def test_a_start_that_is_not_finite_is_refused_by_the_core():
     ({"count": 1, "direction": ffi.NULL}, "events must have the arrays direction and terminal"),
 ], ids=["negative", "many", "no function", "no direction"])
 def test_events_that_the_core_refuses(bar, changed, sentence):
-    watcher = _gateway.Watcher(bar._core, [])
+    watcher = gateway.Watcher(bar._core, [])
     for name, value in changed.items():
         setattr(watcher.c, name, value)
     with pytest.raises(zd.ZerodriftError, match=sentence):
-        _gateway.Run(bar._core, handed(), bar.p0, bar.v0, watcher)
+        gateway.Run(bar._core, handed(), bar.p0, bar.v0, watcher)
 
 
 def test_a_step_by_an_integrator_that_does_not_suit_is_refused_by_the_core():

@@ -9,7 +9,7 @@ import tolerances as tol
 import zerodrift as zd
 from large_mechanisms import four_bars
 from support import assert_close, motion, refused
-from zerodrift import _gateway
+from zerodrift._private import gateway
 
 
 def failed(code, message, call):
@@ -143,12 +143,12 @@ def test_a_mass_beyond_doubles(formulation):
 
 def test_every_error_is_one_of_ours():
     """And one of Python's, where Python has a word for it."""
-    for status, error in _gateway.ERRORS.items():
+    for status, error in gateway.ERRORS.items():
         assert status < 0
         assert issubclass(error, zd.ZerodriftError | MemoryError)
     assert issubclass(zd.InconsistentStart, ValueError)
     assert issubclass(zd.SingularSystem, ArithmeticError)
-    assert isinstance(_gateway.error_of(-10, "unknown"), zd.ZerodriftError)
+    assert isinstance(gateway.error_of(-10, "unknown"), zd.ZerodriftError)
     assert zd.ZerodriftError.solution is None
 
 

@@ -4,12 +4,12 @@ import re
 
 import numpy as np
 import pytest
-from zerodrift._core import ffi, lib
+from zerodrift._private.core import ffi, lib
 
 import zerodrift as zd
 from native_systems import GIVEN, PENDULUM, compile_text, needs_compiler
 from support import handed, refused
-from zerodrift import _gateway
+from zerodrift._private import gateway
 
 ANY = 1     # the address of some function, which is not called here
 
@@ -232,8 +232,8 @@ def test_what_is_malformed_is_refused(changed, sentence):
 def test_a_run_of_it_is_refused():
     core = zd.systems.pendulum()._core
     core.c.inputs = 1
-    for call in (lambda: _gateway.Run(core, handed(), np.zeros(2), np.zeros(2)),
-                 lambda: _gateway.acceleration(core, 0, 0, 0.0, np.zeros(2), np.zeros(2))):
+    for call in (lambda: gateway.Run(core, handed(), np.zeros(2), np.zeros(2)),
+                 lambda: gateway.acceleration(core, 0, 0, 0.0, np.zeros(2), np.zeros(2))):
         with pytest.raises(zd.ZerodriftError, match="inputs: there must be"):
             call()
 

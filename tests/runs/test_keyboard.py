@@ -16,7 +16,7 @@ from covering import draws
 from large_mechanisms import chain
 from support import assert_same_bits, motion
 from watched import At, pendulum
-from zerodrift import _gateway
+from zerodrift._private import gateway
 from zerodrift.runs import simulate as simulation
 
 PACKAGE = str(Path(zd.__file__).parent)
@@ -25,7 +25,7 @@ PACKAGE = str(Path(zd.__file__).parent)
 @pytest.fixture
 def slices(monkeypatch):
     """Seconds that each slice of the core is given; Ctrl-C is pressed during the twentieth, and each ends after a few steps."""
-    given, advance = [], _gateway.Run.advance
+    given, advance = [], gateway.Run.advance
 
     def advancing(run, record, seconds):
         given.append(seconds)
@@ -33,7 +33,7 @@ def slices(monkeypatch):
             signal.raise_signal(signal.SIGINT)      # os.kill would end the process on Windows
         return advance(run, record, 0.0)
 
-    monkeypatch.setattr(_gateway.Run, "advance", advancing)
+    monkeypatch.setattr(gateway.Run, "advance", advancing)
     return given
 
 
@@ -73,14 +73,14 @@ class Presser:
 
     def __init__(self, k, monkeypatch, event="opcode"):
         self.k, self.event, self.count, self.advanced, self.over = k, event, 0, False, False
-        advance = _gateway.Run.advance
+        advance = gateway.Run.advance
 
         def advancing(*arguments):
             self.advanced, self.ran = self.ran, True
             return advance(*arguments)
 
         self.ran = False
-        monkeypatch.setattr(_gateway.Run, "advance", advancing)
+        monkeypatch.setattr(gateway.Run, "advance", advancing)
 
     def trace(self, frame, event, argument):
         if not frame.f_code.co_filename.startswith(PACKAGE):

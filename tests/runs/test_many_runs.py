@@ -6,7 +6,7 @@ import pytest
 import zerodrift as zd
 from few_bodies import cart_pole, driven_four_bar
 from support import refused
-from zerodrift import _gateway
+from zerodrift._private import gateway
 
 
 @pytest.mark.parametrize("compiled", [False, True])
@@ -160,7 +160,7 @@ def test_runs_in_lanes_have_the_bits_that_they_have_alone(case, vector):
     rng, settings = np.random.default_rng(4), {"inputs": [name]} if name else {}
     pair = Pair(make(), 18, step=step, vector=vector, **settings)
     unit = pair.many.settings["vector"]
-    assert all(map(bool, pair.many._core.lanes)) == _gateway.has_lanes(unit)
+    assert all(map(bool, pair.many._core.lanes)) == gateway.has_lanes(unit)
     states = pair.save()
     for action in ("step", "save", "step", "reset", "step", "restore", "step", "save", "restore", "step", "reset", "step"):
         where = (rng.random(18) < 0.4) & [i not in pair.dead for i in range(18)]

@@ -13,7 +13,7 @@ import pytest
 import zerodrift as zd
 from support import refused
 from watched import At, pendulum, throw
-from zerodrift._gateway import runs
+from zerodrift._private.gateway import runs
 
 linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="looks into /proc")
 

@@ -19,7 +19,7 @@ import zerodrift as zd
 from covering import draws
 from support import assert_same_bits, refused
 from watched import At, throw
-from zerodrift._gateway import operations
+from zerodrift._private.gateway import operations
 from zerodrift.runs.samples import mapped_samples, memory, sample_file
 
 not_on_windows = pytest.mark.skipif(os.name == "nt", reason="Windows removes no file that is mapped into memory")

@@ -9,7 +9,7 @@ import saved_runs
 import zerodrift as zd
 from covering import draws
 from native_systems import needs_compiler
-from zerodrift import _gateway
+from zerodrift._private import gateway
 
 
 def assert_same(keys, least):
@@ -45,14 +45,14 @@ def test_cheap_ones_continue_for_many_steps():
     {"formulation": "mixed", "rtol": 1e-10, "atol": 1e-12, "max_step": 0.01}], ids=",".join)
 def test_a_run_that_is_saved_at_every_sample_has_the_bits_of_one(bar, options):
     case = saved_runs.of(bar, options, 0.2)
-    run, parts, expected = case.begun(), [], _gateway.Record(case.core, 500)
-    assert case.begun().advance(expected, 1e3) == _gateway.DONE
-    status = _gateway.FULL
-    while status == _gateway.FULL:
-        record = _gateway.Record(case.core, 1)
+    run, parts, expected = case.begun(), [], gateway.Record(case.core, 500)
+    assert case.begun().advance(expected, 1e3) == gateway.DONE
+    status = gateway.FULL
+    while status == gateway.FULL:
+        record = gateway.Record(case.core, 1)
         status = run.advance(record, 1e3)
         parts.append(record.take())
-        run = case.run(run.save("bar")) if status == _gateway.FULL else run
+        run = case.run(run.save("bar")) if status == gateway.FULL else run
     whole = expected.take()
     for name, column in whole.items():
         assert np.concatenate([part[name] for part in parts]).tobytes() == column.tobytes(), name
@@ -64,7 +64,7 @@ def test_states_of_equal_runs_are_equal(bar):
     states = []
     for _ in range(2):
         run = case.begun()
-        run.advance(_gateway.Record(case.core, 10), 1e3)
+        run.advance(gateway.Record(case.core, 10), 1e3)
         states.append(run.save("bar"))
     assert states[0] == states[1]
     assert case.run(states[0]).save("bar") == states[0]

@@ -20,7 +20,9 @@ import sympy as sp
 import energy_models
 import symbolic_counterparts
 import zerodrift as zd
+from zerodrift._private import gateway
 from zerodrift.ensembles.part import PATHS
+from zerodrift.runs.arguments import settings
 
 KINDS = {name: getattr(zd.systems, name) for name in zd.systems.__all__} | {
     "slider_crank": lambda: energy_models.slider_crank().starting(v0=[1.0, -0.5, 0.0]), "arm": symbolic_counterparts.arm,
@@ -44,7 +46,7 @@ def options_of(chance, end):
         options["stabilization"] = zd.Projection(every=int(chance.integers(2, 8)))
     if chance.random() < 1 / 3:
         options["energy"] = zd.EnergyCorrection(every=int(chance.integers(1, 4)))
-    return options | {"vector": str(chance.choice(zd.runs.arguments.settings.VECTOR_UNITS[:zd._gateway.PROCESSOR_UNIT + 1]))}
+    return options | {"vector": str(chance.choice(settings.VECTOR_UNITS[:gateway.PROCESSOR_UNIT + 1]))}
 
 
 def events_of(system, chance, end):

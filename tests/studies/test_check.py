@@ -5,7 +5,7 @@ import pytest
 
 import zerodrift as zd
 from four_bar_in_python import bias, force, four_bar, jacobian, potential, xi
-from zerodrift._gateway import CoreSystem
+from zerodrift._private.gateway import CoreSystem
 
 
 def test_built_in_systems_are_right(system):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from zerodrift import _gateway
+from zerodrift._private import gateway
 from zerodrift.ensembles.batch import batch_of
 from zerodrift.ensembles.part import BY_CORE, IN_LANES
 from zerodrift.ensembles.plan import checked
@@ -10,7 +10,7 @@ from zerodrift.ensembles.run_range import run_range
 from zerodrift.ensembles.runs import Runs
 from zerodrift.runs.arguments.settings import VECTOR_UNITS
 
-UNITS = VECTOR_UNITS[:_gateway.PROCESSOR_UNIT + 1]
+UNITS = VECTOR_UNITS[:gateway.PROCESSOR_UNIT + 1]
 LANES, ALONE = IN_LANES, BY_CORE
 
 

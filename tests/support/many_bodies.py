@@ -3,9 +3,9 @@
 from typing import NamedTuple
 
 import numpy as np
-from zerodrift._core import ffi
+from zerodrift._private.core import ffi
 
-from zerodrift._gateway.base import doubles
+from zerodrift._private.gateway.base import doubles
 
 
 class Components(NamedTuple):

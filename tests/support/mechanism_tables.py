@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zerodrift._gateway import Variable
-from zerodrift._gateway.mechanisms.plane import (
+from zerodrift._private.gateway import Variable
+from zerodrift._private.gateway.mechanisms.plane import (
     Body,
     GeneralizedForce,
     Joint,

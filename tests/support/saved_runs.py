@@ -19,7 +19,7 @@ import zerodrift as zd
 from every_model import IN_SPACE, MECHANISMS, MODELS
 from few_bodies import cart_pole, driven_four_bar, two_links
 from random_symbolic import random_system
-from zerodrift import _gateway
+from zerodrift._private import gateway
 from zerodrift.runs.arguments import settings
 from zerodrift.runs.open.beginning import prepared
 
@@ -97,7 +97,7 @@ class Case:
     def saved(self, moment):
         """A run and its state, saved after some samples; None: the run ended before."""
         run = self.begun()
-        return (run, self.state(run)) if self.rest(run, moment)[0] == _gateway.FULL else None
+        return (run, self.state(run)) if self.rest(run, moment)[0] == gateway.FULL else None
 
     def state(self, run):
         """The state of a run."""
@@ -105,9 +105,9 @@ class Case:
 
     def rest(self, run, rows=10**9):
         """Status, hash of the samples and events up to that many rows, or to the end, and the last state."""
-        found, status, left, before = hashlib.sha256(), _gateway.FULL, rows, [len(t) for t, *_ in events_of(run)]
-        while status == _gateway.FULL and left:
-            record = _gateway.Record(self.core, min(left, 7))
+        found, status, left, before = hashlib.sha256(), gateway.FULL, rows, [len(t) for t, *_ in events_of(run)]
+        while status == gateway.FULL and left:
+            record = gateway.Record(self.core, min(left, 7))
             status = run.advance(record, 1e3)
             taken = record.take()
             left -= len(taken["t"])
@@ -189,7 +189,7 @@ def of(system, options, duration):
 
 def units():
     """Vector units of this processor."""
-    return settings.VECTOR_UNITS[:_gateway.PROCESSOR_UNIT + 1]
+    return settings.VECTOR_UNITS[:gateway.PROCESSOR_UNIT + 1]
 
 
 def driven():

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from zerodrift._gateway.mechanisms.space import joint_kinds
+from zerodrift._private.gateway.mechanisms.space import joint_kinds
 
 KINDS = joint_kinds()
 

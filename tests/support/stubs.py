@@ -1,5 +1,5 @@
 """Writes the declarations of what is imported or made on demand, from the package itself: `__init__.pyi` of the package and of
-`systems`; `_types.pyi`, the types of arguments, with the names in the core's tables; `table_verbs.pyi`, methods of `Mechanism`.
+`systems`; `types.pyi`, the types of arguments, with the names in the core's tables; `table_verbs.pyi`, methods of `Mechanism`.
 
 PYTHONPATH=python:tests:tests/support python tests/support/stubs.py
 """
@@ -25,14 +25,14 @@ from typing import Any, Literal, Protocol, TypedDict
 import numpy as np
 from numpy.typing import ArrayLike as ArrayLike
 
-from .mechanisms.elements.bodies import Point as Point
-from .mechanisms.elements.measures import Measure as Measure
-from .mechanisms.mechanism import Mechanism as Mechanism
-from .runs.arguments.events import Event
-from .runs.arguments.methods import RowSettings
-from .runs.open.control import Every
-from .runs.states.instant import Reading as Reading
-from .systems.base import BaseSystem
+from ..mechanisms.elements.bodies import Point as Point
+from ..mechanisms.elements.measures import Measure as Measure
+from ..mechanisms.mechanism import Mechanism as Mechanism
+from ..runs.arguments.events import Event
+from ..runs.arguments.methods import RowSettings
+from ..runs.open.control import Every
+from ..runs.states.instant import Reading as Reading
+from ..systems.base import BaseSystem
 
 class Expression(Protocol):
     """An expression of SymPy."""
@@ -111,7 +111,7 @@ def settings_class(name):
 
 
 def types():
-    """The text of `_types.pyi`."""
+    """The text of `types.pyi`."""
     names = {"Formulation": methods.TABLES["formulations"], "Integrator": methods.TABLES["integrators"],
              "Correction": methods.TABLES["corrections"], "StabilizationName": settings.STABILIZATIONS,
              "VectorUnit": settings.VECTOR_UNITS}
@@ -146,15 +146,15 @@ def package():
     for name in zd.__all__:
         value = getattr(zd, name)
         where, _, what = (value.__name__ if inspect.ismodule(value) else f"{value.__module__}.{name}").rpartition(".")
-        where = "._types" if name in methods.CLASSES else where.removeprefix("zerodrift") or "."
+        where = "._private.types" if name in methods.CLASSES else where.removeprefix("zerodrift") or "."
         lines.add(f"from {where} import {what} as {name}")
     lines = sorted(lines, key=lambda line: (line.split()[1], line.split()[-1].islower(), line.split()[-1].lower()))
     return "\n".join([f'"""{inspect.getdoc(zd)}\n"""\n', f"# {WRITTEN.capitalize()}", *lines, "",
                       "__version__: str", ""])
 
 
-STUBS = {PACKAGE / "_types.pyi": types, PACKAGE / "__init__.pyi": package, PACKAGE / "systems" / "__init__.pyi": systems,
-         stub_of_verbs.STUB: stub_of_verbs.stub}
+STUBS = {PACKAGE / "_private" / "types.pyi": types, PACKAGE / "__init__.pyi": package,
+         PACKAGE / "systems" / "__init__.pyi": systems, stub_of_verbs.STUB: stub_of_verbs.stub}
 
 if __name__ == "__main__":
     for path, text in STUBS.items():

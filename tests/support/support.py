@@ -11,7 +11,7 @@ import pytest
 import tolerances as tol
 import zerodrift as zd
 from native_systems import ROOT, own_systems  # noqa: F401  (ROOT: of tests)
-from zerodrift import _gateway
+from zerodrift._private import gateway
 from zerodrift.explanations import codes
 from zerodrift.runs.arguments.methods import evaluating_integrators
 
@@ -26,7 +26,7 @@ def environment_of_tests(**variables):
 
 def _instances():
     """Every built-in system as it comes, and with every word its choices allow."""
-    for name, kind in _gateway.kinds().items():
+    for name, kind in gateway.kinds().items():
         yield name, getattr(zd.systems, name)()
         for parameter in (p for p in kind.parameters if p.rule == "choice"):
             for word in parameter.words[1:]:
@@ -213,7 +213,7 @@ def handed(**changed):
     corrections = {name: [values.get(parameter.name, parameter.initial[0]) for parameter in zd.corrections()[name].parameters]
                    for name, values in given.items()}
     options = {"t1": 1.0, "step": 0.1, "rtol": 1e-6, "atol": 1e-9, "save_every": 1, "correction": corrections}
-    return _gateway.settings(options | changed)
+    return gateway.settings(options | changed)
 
 
 def motion(system, t_end, steps, **options):

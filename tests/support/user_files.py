@@ -19,7 +19,7 @@ def examples():
     for i, block in enumerate(re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(encoding="utf-8"), re.DOTALL)):
         yield f"readme_{i}", block
     for module in pkgutil.walk_packages(zerodrift.__path__, "zerodrift."):
-        if not module.name.endswith(("__main__", "_core")):
+        if not module.name.endswith("__main__"):
             for found in doctest.DocTestFinder().find(importlib.import_module(module.name)):
                 if found.examples:
                     yield found.name.replace(".", "_"), "".join(each.source for each in found.examples)

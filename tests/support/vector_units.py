@@ -4,10 +4,10 @@ import ctypes
 
 import numpy as np
 import pytest
-from zerodrift._core import ffi, lib
+from zerodrift._private.core import ffi, lib
 
-from zerodrift import _gateway
-from zerodrift._gateway.compiled import programs
+from zerodrift._private import gateway
+from zerodrift._private.gateway.compiled import programs
 from zerodrift.symbolics.compile.shared_library import QUICKLY
 
 # The sets of csrc/include/zerodrift/units.h by their unit's number and how many trajectories they take at once
@@ -69,12 +69,12 @@ def closed_form_sets(system):
         known = [f"ZD_SET_{name}" for of, name in SETS.items() if of[0] <= UNIT]
         closed_form = system._closed_form[1] if hasattr(system, "_written") else system._closed_form
         library = closed_form.library_of("|".join(known), QUICKLY)
-        table = ffi.cast("const zd_closed_form *", _gateway.address_of(library, "zd_symbolic_closed_form"))
+        table = ffi.cast("const zd_closed_form *", gateway.address_of(library, "zd_symbolic_closed_form"))
         rows = [table[i] for i in range(len(known))]
         data = (doubles_of(system._written, closed_form, library) if hasattr(system, "_written") else
                 system._with_closed_form_data(library, closed_form))
     else:
-        c, kind = system._core.c, _gateway.kinds()[system.name].c
+        c, kind = system._core.c, gateway.kinds()[system.name].c
         rows = [c.closed_form[i] for i in range(c.closed_forms)]
         data = np.frombuffer(ffi.buffer(ffi.cast("double *", c.data), 8 * kind.constants)).copy()
     sizes = system.nq, system.nv, system._core.c.mh, system.m

@@ -138,10 +138,10 @@ def test_where_nothing_is_executed_from_temporary_folders(cache_folder, monkeypa
         loaded.append(path)
         return load(path)
 
-    monkeypatch.setattr(shared_library._gateway.compiled.functions.ctypes, "CDLL", refusing)
-    monkeypatch.setattr(shared_library._gateway.compiled.functions, "_loaded", {})
+    monkeypatch.setattr(shared_library.gateway.compiled.functions.ctypes, "CDLL", refusing)
+    monkeypatch.setattr(shared_library.gateway.compiled.functions, "_loaded", {})
     made()
-    monkeypatch.setattr(shared_library._gateway.compiled.functions, "_loaded", {})
+    monkeypatch.setattr(shared_library.gateway.compiled.functions, "_loaded", {})
     monkeypatch.setattr(shared_library, "_build", None)
     made()
     assert len(loaded) == 2
@@ -186,9 +186,9 @@ def test_on_windows_files_are_reached_by_their_paths(as_windows):
 def test_on_windows_libraries_are_loaded_from_where_they_are_kept(as_windows, monkeypatch):
     """Windows locks a loaded library against changes, and a loaded copy could not be removed."""
     load, loaded = ctypes.CDLL, []
-    functions = shared_library._gateway.compiled.functions
+    functions = shared_library.gateway.compiled.functions
     monkeypatch.setattr(functions.ctypes, "CDLL", lambda path: loaded.append(Path(path)) or load(path))
-    monkeypatch.setattr(shared_library._gateway.compiled.functions, "_loaded", {})
+    monkeypatch.setattr(shared_library.gateway.compiled.functions, "_loaded", {})
     assert made().compiled
     assert loaded
     assert all(path.parent == as_windows for path in loaded)

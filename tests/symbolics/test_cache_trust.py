@@ -191,15 +191,15 @@ def test_a_link_that_is_changed_after_the_folder_was_looked_at(tmp_path, cache_f
 def test_what_is_loaded_is_what_was_looked_at(tmp_path, cache_folder, monkeypatch):
     """A library that is replaced between its being read and its being loaded."""
     made()
-    load = shared_library._gateway.load_data
+    load = shared_library.gateway.load_data
 
     def replacing(data, otherwise=None):
         for path in cache_folder.glob("*.so"):
             path.write_bytes(b"not what was looked at")
         return load(data, otherwise)
 
-    monkeypatch.setattr(shared_library._gateway, "load_data", replacing)
-    monkeypatch.setattr(shared_library._gateway.compiled.functions, "_loaded", {})
+    monkeypatch.setattr(shared_library.gateway, "load_data", replacing)
+    monkeypatch.setattr(shared_library.gateway.compiled.functions, "_loaded", {})
     made()
 
 
@@ -214,7 +214,7 @@ def test_a_file_under_the_name_of_another_is_not_taken(cache_folder):
 
 @needs_root
 def test_what_another_user_has_planted_is_not_executed(cache_folder, tmp_path, monkeypatch):
-    monkeypatch.setattr(shared_library._gateway.compiled.functions, "_loaded", {})
+    monkeypatch.setattr(shared_library.gateway.compiled.functions, "_loaded", {})
     made()
     planted = tmp_path / "planted"
     for path in cache_folder.glob("*.json"):

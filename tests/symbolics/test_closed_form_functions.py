@@ -4,7 +4,7 @@ import pickle
 
 import numpy as np
 import pytest
-from zerodrift._core import ffi, lib
+from zerodrift._private.core import ffi, lib
 
 import tolerances as tol
 import zerodrift as zd

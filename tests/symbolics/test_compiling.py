@@ -206,7 +206,7 @@ def test_without_space_to_compile(cache_folder, tmp_path, monkeypatch):
 def test_what_is_in_the_cache_and_cannot_be_loaded_is_compiled_anew(cache_folder, compiler, monkeypatch):
     """As on another machine with the same compiler, but older libraries."""
     made()
-    load, calls = shared_library._gateway.load_data, []
+    load, calls = shared_library.gateway.load_data, []
 
     def once(data, otherwise=None):
         calls.append(data)
@@ -214,7 +214,7 @@ def test_what_is_in_the_cache_and_cannot_be_loaded_is_compiled_anew(cache_folder
             raise OSError("version `GLIBC_9.9' not found")
         return load(data, otherwise)
 
-    monkeypatch.setattr(shared_library._gateway, "load_data", once)
+    monkeypatch.setattr(shared_library.gateway, "load_data", once)
     monkeypatch.setattr(shared_library.cache, "place", lambda name, data: contextlib.nullcontext())
     made()
     assert compiler.calls == 2

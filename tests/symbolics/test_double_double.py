@@ -44,9 +44,9 @@ def libraries():
 
 
 def has_fma():
-    from zerodrift import _gateway
+    from zerodrift._private import gateway
 
-    return int(_gateway.PROCESSOR_UNIT > 0)
+    return int(gateway.PROCESSOR_UNIT > 0)
 
 
 def applied(library, name, a, b=None):

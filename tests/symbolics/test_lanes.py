@@ -4,7 +4,7 @@ import functools
 
 import numpy as np
 import pytest
-from zerodrift._core import ffi
+from zerodrift._private.core import ffi
 
 import tolerances as tol
 import zerodrift as zd
@@ -124,5 +124,5 @@ def test_a_compiler_that_has_no_vectors_writes_the_plain_functions():
     """The compiler emits the requested sets that it supports, or else the baseline."""
     functions = random_system(2)._closed_form
     plain = functions.library_of("0x40000000")
-    table = ffi.cast("const zd_closed_form *", zd._gateway.address_of(plain, "zd_symbolic_closed_form"))
+    table = ffi.cast("const zd_closed_form *", zd._private.gateway.address_of(plain, "zd_symbolic_closed_form"))
     assert (table[0].unit, table[0].lanes) == (0, 1)

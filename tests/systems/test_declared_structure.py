@@ -9,7 +9,7 @@ import zerodrift as zd
 from native_systems import needs_compiler
 from structured import Bodies, bodies_library, chain
 from support import assert_same_bits, refused
-from zerodrift import _gateway
+from zerodrift._private import gateway
 
 PAIR = zd.Structure(blocks=[3, 3], groups=[(2, [0]), (2, [0, 1])], mass="diagonal")
 
@@ -139,7 +139,7 @@ def test_a_native_function_that_does_not_write_as_its_structure_says_is_refused(
 def test_systems_that_are_off_by_rounding_stay_symmetric():
     random = Bodies(4)
     system = random.system(mass=random.M)
-    core = _gateway.perturbed(system._core, 2.0**-52, 1)
+    core = gateway.perturbed(system._core, 2.0**-52, 1)
     one, other = core.evaluate(0.0, random.p, random.v), system.evaluate(random.p, random.v)
     assert (one["M"] == one["M"].T).all()
     for name in ("M", "C", "xi", "f"):

@@ -24,7 +24,7 @@ from native_systems import (
     run_elsewhere,
 )
 from support import assert_close, assert_same_bits, refused
-from zerodrift._gateway import TERMS
+from zerodrift._private.gateway import TERMS
 from zerodrift.systems.native import BIT, SLOT
 
 pytestmark = needs_compiler

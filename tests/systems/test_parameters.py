@@ -21,20 +21,20 @@ def test_a_parameter_cannot_take_the_place_of_the_state(name, library):
 
 
 def test_a_kind_whose_parameter_is_named_as_the_state_is_refused(library, monkeypatch):
-    kind_at = zd._gateway.kind_at
+    kind_at = zd._private.gateway.kind_at
 
     def renamed(address):
         kind = kind_at(address)
         kind.parameters = (kind.parameters[0]._replace(name="v"), *kind.parameters[1:])
         return kind
 
-    monkeypatch.setattr(zd._gateway, "kind_at", renamed)
+    monkeypatch.setattr(zd._private.gateway, "kind_at", renamed)
     with refused("compiled-function", r"zd_kind_pendulum of .*: parameters cannot have 'v'"):
         zd.native(library, symbol="pendulum")
 
 
 def test_no_built_in_parameter_has_the_name_of_the_state():
-    assert not {p.name for kind in zd._gateway.kinds().values() for p in kind.parameters} & {"t", "p", "v"}
+    assert not {p.name for kind in zd._private.gateway.kinds().values() for p in kind.parameters} & {"t", "p", "v"}
 
 
 @pytest.mark.parametrize("name", ["x", "x_dot", "t", "other"])

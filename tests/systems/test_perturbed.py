@@ -6,7 +6,7 @@ import sympy as sp
 
 import zerodrift as zd
 from support import SYSTEMS
-from zerodrift import _gateway
+from zerodrift._private import gateway
 
 SIZE = 2.0**-30     # well above rounding
 PERTURBED = ("A", "M", "d", "f", "C", "Phi_t", "xi")
@@ -14,7 +14,7 @@ PERTURBED = ("A", "M", "d", "f", "C", "Phi_t", "xi")
 
 @pytest.fixture
 def perturbed(system):
-    return _gateway.perturbed(system._core, SIZE, seed=7)
+    return gateway.perturbed(system._core, SIZE, seed=7)
 
 
 def terms_at(core, factors, t, p, v):
@@ -40,7 +40,7 @@ def test_factors_are_one_or_two_units_off_either_way(perturbed):
 
 
 def test_other_seeds_are_rounded_otherwise(system):
-    first, again, other = (_gateway.perturbed(system._core, SIZE, seed) for seed in (1, 1, 2))
+    first, again, other = (gateway.perturbed(system._core, SIZE, seed) for seed in (1, 1, 2))
     assert np.array_equal(first.factors["M"], again.factors["M"])
     assert any(not np.array_equal(first.factors[name], other.factors[name]) for name in first.factors)
 
@@ -55,7 +55,7 @@ def test_what_a_callable_raises_comes_out():
         zd.reference(zd.System(1, mass=[[1.0]], force=force, p0=[1.0]), 3.0)
     core = zd.System(1, mass=[[1.0]], force=force, p0=[1.0])._core
     with pytest.raises(KeyError, match="too far"):
-        _gateway.perturbed(core, SIZE, seed=1).evaluate(0.0, np.array([-1.0]), np.array([0.0]))
+        gateway.perturbed(core, SIZE, seed=1).evaluate(0.0, np.array([-1.0]), np.array([0.0]))
 
 
 # ---- whether terms depend on time ----
@@ -100,6 +100,6 @@ def test_expressions_say_it_by_their_symbols(force, timeless):
 def test_of_compiled_functions_nothing_is_known():
     """They are taken to depend on time, unless the library says otherwise."""
     bar = SYSTEMS["four_bar"]
-    core = _gateway.NativeCore((bar.nq, bar.nv, bar.mh, bar.mn), [], 1, None, ())
+    core = gateway.NativeCore((bar.nq, bar.nv, bar.mh, bar.mn), [], 1, None, ())
     assert not core.timeless
-    assert _gateway.NativeCore((bar.nq, bar.nv, bar.mh, bar.mn), [], 1, None, (), timeless=True).timeless
+    assert gateway.NativeCore((bar.nq, bar.nv, bar.mh, bar.mn), [], 1, None, (), timeless=True).timeless

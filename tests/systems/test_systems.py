@@ -6,7 +6,7 @@ import pytest
 import tolerances as tol
 import zerodrift as zd
 from support import BUILT_IN, along, assert_close, consistent_states, difference, flowed, numbers, refused, solved
-from zerodrift import _gateway
+from zerodrift._private import gateway
 
 
 def columns(size):
@@ -80,7 +80,7 @@ def test_bias_and_force_are_those_of_lagrange(system):
 def test_terms_are_absent_or_have_their_shapes(system):
     sizes = {"nq": system.nq, "nv": system.nv, "mh": system.mh, "m": system.m, "r": system.nv - system.m}
     terms = system.evaluate()
-    for name, term in _gateway.TERMS.items():
+    for name, term in gateway.TERMS.items():
         array = getattr(terms, name)
         assert array is None or array.shape == tuple(sizes[size] for size in term.sizes.strip("()").split(", ") if size)
     assert terms.M is not None

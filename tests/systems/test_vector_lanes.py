@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from zerodrift._core import lib
+from zerodrift._private.core import lib
 
 from angles import CONTRACTED, KINDS, angles_of, assert_accurate, assert_same
 from native_systems import COMPILER, compile_library

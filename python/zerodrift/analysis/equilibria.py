@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .. import _check
-from .._types import ArrayLike, SystemLike, Values
+from .._private import checks
+from .._private.types import ArrayLike, SystemLike, Values
 from ..errors import EquilibriumFailed, WrongValue
 from ..runs.states.instant import KnownInstant
 from ..systems.base import BaseSystem, core_of, system_of
@@ -104,7 +104,7 @@ def equilibria(system: SystemLike, parameter: str, values: ArrayLike, *, near: A
     """
     system = system_of(system)
     core_of(system)
-    _check.choice("parameter", parameter, system.parameters)
+    checks.choice("parameter", parameter, system.parameters)
     values = _values(values)
     first = system.with_parameters({parameter: float(values[0])})
     p = equilibrium(first, near=near, t=t).p
@@ -113,9 +113,9 @@ def equilibria(system: SystemLike, parameter: str, values: ArrayLike, *, near: A
 
 
 def _values(given: Any) -> np.ndarray:
-    values = _check.real("values must hold", given).astype(float)
+    values = checks.real("values must hold", given).astype(float)
     if values.ndim != 1 or len(values) < 2 or not np.isfinite(values).all():
-        raise WrongValue(f"values must be at least two finite numbers, not {_check.shown(given)}", "shape")
+        raise WrongValue(f"values must be at least two finite numbers, not {checks.shown(given)}", "shape")
     if not ((np.diff(values) > 0).all() or (np.diff(values) < 0).all()):
         raise WrongValue("values must increase or decrease", "not-increasing")
     return values

@@ -7,8 +7,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from .. import _check
-from .._types import ArrayLike, Measures, SystemLike, Values
+from .._private import checks
+from .._private.types import ArrayLike, Measures, SystemLike, Values
 from ..errors import EquilibriumFailed, WrongValue, ZerodriftError
 from ..runs.arguments.methods import Projection
 from ..runs.states.operations import project
@@ -80,8 +80,8 @@ def equilibrium(system: SystemLike, *, near: ArrayLike | Values | None = None, h
     >>> round(eq["link.angle"], 9), round(eq["pin.force.y"], 9), eq.stable
     (-1.570796327, 19.62, True)
     """
-    system, t = system_of(system), _check.number("t", t)
-    _check.choice("stability", stability, ("stable", "any"))
+    system, t = system_of(system), checks.number("t", t)
+    checks.choice("stability", stability, ("stable", "any"))
     if hold == () and v is None and (meet := blocks_that_meet(system)) is not None:
         return of_many(*found(system, t, _first(system, near), meet))
     p = near_to(system, near, t)
@@ -106,7 +106,7 @@ def _first(system: BaseSystem, near: Any) -> np.ndarray:
     if isinstance(near, Mapping):
         raise WrongValue(f"near must hold coordinates, not values of quantities, where there are more than {MANY} velocities")
     return np.array(system._state_or_start(None, None, "near", "v", 0.0)[0]) if near is None else (
-        _check.vector("near", near, system.nq))
+        checks.vector("near", near, system.nq))
 
 
 def balanced(system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -128,8 +128,8 @@ def _speed(at: State, name: str, value: Any) -> np.ndarray:
     """Checked values (size,) of a rate; a number stands for all of its components."""
     size = len(find(at, name, "v").value)
     if np.ndim(value) == 0:
-        return np.full(size, _check.number(f"v[{name!r}]", value))
-    return _check.vector(f"v[{name!r}]", value, size)
+        return np.full(size, checks.number(f"v[{name!r}]", value))
+    return checks.vector(f"v[{name!r}]", value, size)
 
 
 def _unmoved(system: BaseSystem, p: np.ndarray) -> np.ndarray:

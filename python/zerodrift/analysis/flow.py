@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from .._gateway import acceleration
-from .._rotations import rotation_of, turn
+from .._private.gateway import acceleration
+from .._private.rotations import rotation_of, turn
 from ..runs.arguments import methods, settings
 from ..runs.states.instant import KnownInstant
 from ..systems.base import core_of

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from .._gateway.mechanisms.core import MechanismCore
+from .._private.gateway.mechanisms.core import MechanismCore
 from ..systems.base import BaseSystem, core_of
 from . import differences
 from .quantities import rates_of

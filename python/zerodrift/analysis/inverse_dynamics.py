@@ -8,9 +8,9 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from .. import _check
-from .._gateway import needed_efforts
-from .._types import ArrayLike, Measures, SystemLike, Values
+from .._private import checks
+from .._private.gateway import needed_efforts
+from .._private.types import ArrayLike, Measures, SystemLike, Values
 from ..errors import AccuracyWarning, InconsistentStart, SingularSystem, WrongType, WrongValue
 from ..systems.base import BaseSystem, Makes, core_of, system_of
 from . import read_forces
@@ -112,12 +112,12 @@ def _in_coordinates_of(motion: Kinematics, given: Any) -> BaseSystem:
 
 def _samples(system: BaseSystem, t: Any, p: Any, v: Any, vdot: Any) -> tuple[np.ndarray, ...]:
     """T (k,), p (k, nq), v (k, nv), vdot (k, nv)."""
-    t = np.atleast_1d(_check.real("motion must hold times,", t).astype(float))
+    t = np.atleast_1d(checks.real("motion must hold times,", t).astype(float))
     found = []
     for name, given, size in (("p", p, system.nq), ("v", v, system.nv), ("vdot", vdot, system.nv)):
         if given is None:
             raise WrongType(f"{name} must be given with times", "missing-argument")
-        array = np.atleast_2d(_check.real(f"{name} must hold", given).astype(float))
+        array = np.atleast_2d(checks.real(f"{name} must hold", given).astype(float))
         if array.shape != (len(t), size):
             raise WrongValue(f"{name} must have shape ({len(t)}, {size}), not {array.shape}", "shape")
         if not np.isfinite(array).all():
@@ -129,8 +129,8 @@ def _samples(system: BaseSystem, t: Any, p: Any, v: Any, vdot: Any) -> tuple[np.
 def _weights(given: Any, names: list[str]) -> dict[str, float]:
     weights = {} if given is None else values_of(given, "weights")
     for name, value in weights.items():
-        _check.choice("weights", name, names)
-        _check.number(f"weights[{name!r}]", value, above=0)
+        checks.choice("weights", name, names)
+        checks.number(f"weights[{name!r}]", value, above=0)
     return weights
 
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
-from .._gateway import Tracked
-from .._types import ArrayLike, Motions, SystemLike, Values
+from .._private import checks
+from .._private.gateway import Tracked
+from .._private.types import ArrayLike, Motions, SystemLike, Values
 from ..errors import AccuracyWarning, InconsistentStart, LockedWarning, SingularSystem, WrongValue
 from ..systems.base import BaseSystem, core_of, system_of
 from .kinematic_result import Kinematics
@@ -77,7 +77,7 @@ def kinematics(system: SystemLike, motion: Motions, t: ArrayLike | None = None, 
     """
     system = system_of(system)
     core_of(system)
-    given, times = values_of(motion, "motion"), None if t is None else _check.increasing("t", t, -np.inf, np.inf)
+    given, times = values_of(motion, "motion"), None if t is None else checks.increasing("t", t, -np.inf, np.inf)
     if speed is not None:
         speed = _speed(speed, given, times)
     wanted = {name: prescribed(f"motion[{name!r}]", value, times, speed) for name, value in given.items()}
@@ -93,7 +93,7 @@ def kinematics(system: SystemLike, motion: Motions, t: ArrayLike | None = None, 
 
 
 def _speed(speed: Any, given: Mapping[str, Any], times: Any) -> float:
-    speed = _check.number("speed", speed)
+    speed = checks.number("speed", speed)
     if times is not None or len(given) != 1:
         raise WrongValue("speed must be given without t, and for a single prescribed quantity", "conflicting-arguments")
     if speed == 0:

@@ -19,8 +19,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .._gateway import CoreSystem, acceleration
-from .._gateway.packed_layout import Packing
+from .._private.gateway import CoreSystem, acceleration
+from .._private.gateway.packed_layout import Packing
 from ..errors import EquilibriumFailed, ZerodriftError
 from ..runs.arguments import methods, settings
 from ..runs.states.operations import project

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongValue
 from . import differences
 from .flow import Flow
@@ -132,7 +132,7 @@ class Linearization:
         Q = complement(self._spectrum.removed)
         Y = np.vstack([J @ self._quasi[:nv], J @ self._quasi[nv:] + self._rates(wanted)]) @ Q
         if Y.shape[0] != Y.shape[1] or np.linalg.cond(Y) > 1e9:
-            raise WrongValue(f"names must be {Q.shape[1] / 2:g} quantities that determine the motion, not {_check.shown(wanted)}",
+            raise WrongValue(f"names must be {Q.shape[1] / 2:g} quantities that determine the motion, not {checks.shown(wanted)}",
                              "wrong-measure")
         return Y @ (Q.T @ self.A @ Q) @ np.linalg.inv(Y)
 
@@ -143,7 +143,7 @@ class Linearization:
         found = np.linalg.lstsq(Y.T, rates.T, rcond=None)[0].T
         left = np.abs(found @ Y - rates).max(initial=0.0)
         if np.linalg.matrix_rank(Y, tol=1e-9 * np.linalg.norm(Y, 2)) < len(Y) or left > 1e-7 * np.abs(rates).max(initial=0.0):
-            raise WrongValue(f"names must be independent quantities that determine their motion, not {_check.shown(names)}",
+            raise WrongValue(f"names must be independent quantities that determine their motion, not {checks.shown(names)}",
                              "wrong-measure")
         return found
 

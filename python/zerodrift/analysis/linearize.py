@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
-from .._types import ArrayLike, Measures, Reading, SystemLike, Values
+from .._private import checks
+from .._private.types import ArrayLike, Measures, Reading, SystemLike, Values
 from ..errors import AccuracyWarning, InconsistentStart, WrongType, WrongValue
 from ..systems.base import BaseSystem, core_of, system_of
 from . import differences
@@ -100,8 +100,8 @@ def _state(system: BaseSystem, at: Any, v: Any) -> State:
             t, p, v = at
         except (TypeError, ValueError):
             raise WrongType(f"at must be an equilibrium, an instant such as sol.at(t), or (t, p, v), "
-                            f"not {_check.shown(at)}") from None
-    here = state(system, _check.number("t", t), _check.vector("p", p, system.nq), _check.vector("v", v, system.nv))
+                            f"not {checks.shown(at)}") from None
+    here = state(system, checks.number("t", t), checks.vector("p", p, system.nq), checks.vector("v", v, system.nv))
     scale = scales(system, here.p)
     speed = scale.length * (1.0 + np.abs(here.v / scale.v).max(initial=0.0))
     if _rest(at) is not None:

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
-from .._types import ArrayLike, MeasureLike, SystemLike
+from .._private import checks
+from .._private.types import ArrayLike, MeasureLike, SystemLike
 from .quantities import find, names_of
 from .state import State, arguments, scales, state
 from .tangent import Tangent, null_space
@@ -53,7 +53,7 @@ def mass_matrix(system: SystemLike, p: ArrayLike | None = None, *, t: float = 0.
     array([[2.]])
     """
     at = _at(system, p, None, t)
-    if not _check.instance("tangent", tangent, bool, "True or False"):
+    if not checks.instance("tangent", tangent, bool, "True or False"):
         return at.M.copy()
     Z = _tangent(at)
     return Z.T @ at.M @ Z
@@ -98,7 +98,7 @@ def jacobian(system: SystemLike, measure: MeasureLike, p: ArrayLike | None = Non
     """
     at = _at(system, p, None, t)
     rows = np.vstack([find(at, name, "measure").row for name in names_of(measure, "measure")])
-    return rows @ _tangent(at) if _check.instance("tangent", tangent, bool, "True or False") else rows
+    return rows @ _tangent(at) if checks.instance("tangent", tangent, bool, "True or False") else rows
 
 
 def bias(system: SystemLike, p: ArrayLike | None = None, v: ArrayLike | None = None, *, t: float = 0.0,
@@ -135,7 +135,7 @@ def bias(system: SystemLike, p: ArrayLike | None = None, v: ArrayLike | None = N
     at = _at(system, p, v, t)
     terms = at.system.evaluate(at.p, at.v, at.t)
     d = np.zeros(at.system.nv) if terms.d is None else np.array(terms.d)
-    if not _check.instance("tangent", tangent, bool, "True or False"):
+    if not checks.instance("tangent", tangent, bool, "True or False"):
         return d
     x = Tangent(at).solve_rows(at.xi) if at.system.m else np.zeros(at.system.nv)
     return _tangent(at).T @ (d + at.M @ x)

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._rotations import product, rotation_of, turn
+from .._private.rotations import product, rotation_of, turn
 from ..runs.states.instant import Reading
 from .frames import CoordinateFrame, Frame, mechanism_core_of
 from .state import State, scales, state

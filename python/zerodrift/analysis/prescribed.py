@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .. import _check, _gateway
+from .._private import checks, gateway
 from ..errors import WrongType, WrongValue
 from ..systems import autodiff
 
@@ -43,10 +43,10 @@ def prescribed(name: str, given: Any, t: np.ndarray | None, speed: float | None)
         if t is None:
             raise WrongType(f"{name} is a function of time, and t must be given: the times of the samples", "missing-argument")
         return _of_function(name, given, t)
-    values = _check.real(f"{name} must hold", given).astype(float)
+    values = checks.real(f"{name} must hold", given).astype(float)
     values = values[:, None] if values.ndim == 1 else values
     if values.ndim != 2 or not len(values) or not np.isfinite(values).all():
-        raise WrongValue(f"{name} must have shape (k,) or (k, size) and be finite, not {_check.shown(given)}", "shape")
+        raise WrongValue(f"{name} must have shape (k,) or (k, size) and be finite, not {checks.shown(given)}", "shape")
     if t is not None and len(values) != len(t):
         raise WrongValue(f"{name} must have one value for each of {len(t)} times, not {len(values)}", "shape")
     if speed is not None:
@@ -79,11 +79,11 @@ def _parts(name: str, function: Callable[[Any], Any], t: Any) -> np.ndarray:
     try:
         found = np.ravel(np.asarray(function(autodiff.Jet(t, 0.0, 1.0, 0.0)), dtype=object))
     except Exception as error:
-        _check.tell(error, f"in {name}, called at t = {t:g}: it must be written in NumPy's functions")
+        checks.tell(error, f"in {name}, called at t = {t:g}: it must be written in NumPy's functions")
         raise
     parts = np.empty((3, len(found), *np.shape(t)))
     for j, each in enumerate(found):
-        jet = each if isinstance(each, autodiff.Jet) else autodiff.Jet(_check.number(name, each))
+        jet = each if isinstance(each, autodiff.Jet) else autodiff.Jet(checks.number(name, each))
         parts[0, j], parts[1, j], parts[2, j] = jet.value, jet.first, jet.second
     return parts
 
@@ -114,7 +114,7 @@ def _of_array(values: np.ndarray, t: np.ndarray) -> Prescribed:
         error = float(np.abs(seconds - _of_polynomials(values, t, len(t) - 1)[1]).max())
         return Prescribed(values, rates, seconds, error, rounding)
     rate, second = rates.copy(), seconds.copy()
-    _gateway.quintic_spline(t, values, rate, second)
+    gateway.quintic_spline(t, values, rate, second)
     at_ends = float(np.abs(seconds - coarse)[[0, -1]].max())
     return Prescribed(values, rate, second, max(at_ends, float(np.abs(second - seconds).max())), rounding)
 

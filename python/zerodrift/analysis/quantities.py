@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongType, WrongValue
 from ..systems.base import BaseSystem
 from . import differences
@@ -48,7 +48,7 @@ def name_of(given: Any, what: str) -> str:
     """The name of a measure or variable that is given as such or by name."""
     name = getattr(given, "name", given)
     if not isinstance(name, str):
-        raise WrongType(f"{what} must be a measure, such as crank.angle, or its name, not {_check.shown(given)}")
+        raise WrongType(f"{what} must be a measure, such as crank.angle, or its name, not {checks.shown(given)}")
     return name
 
 
@@ -56,14 +56,14 @@ def names_of(given: Any, what: str) -> list[str]:
     """Names of one or several measures or variables, given as such or by name."""
     single = isinstance(given, str) or hasattr(given, "name")
     if not single and not isinstance(given, Iterable):
-        raise WrongType(f"{what} must be measures or their names, not {_check.shown(given)}")
+        raise WrongType(f"{what} must be measures or their names, not {checks.shown(given)}")
     return [name_of(each, f"an entry of {what}") for each in ((given,) if single else given)]
 
 
 def values_of(given: Any, what: str) -> dict[str, Any]:
     """A dictionary of values by measure, by names."""
     if not isinstance(given, Mapping):
-        raise WrongType(f"{what} must be a dict of values by measure, not {_check.shown(given)}")
+        raise WrongType(f"{what} must be a dict of values by measure, not {checks.shown(given)}")
     return {name_of(key, f"a key of {what}"): value for key, value in given.items()}
 
 
@@ -133,7 +133,7 @@ def _of_variable(system: BaseSystem, name: str, what: str, t: np.ndarray, p: np.
     coordinates, velocities, core = _names(system.coordinates), _names(system.velocities), small_core(system)
     if name not in coordinates and name not in velocities:
         raise WrongValue(f"{what} names {name!r}, and nothing in {system.name} is called that; "
-                         f"{_check.closest(name, system._names_of_quantities())}", "wrong-name")
+                         f"{checks.closest(name, system._names_of_quantities())}", "wrong-name")
     k, bias, identity = len(t), np.zeros((len(t), 1)), np.eye(core.nq, core.nv)
     if name not in coordinates:
         j = velocities.index(name)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check, _gateway
+from .._private import checks, gateway
 from ..errors import CorrectionFailed
 from ..systems.base import BaseSystem
 from .quantities import find, values_of
@@ -44,7 +44,7 @@ def onto(system: BaseSystem, t: float, p: np.ndarray, held: Mapping[str, np.ndar
     return found
 
 
-def prescribing(system: BaseSystem, p: np.ndarray, names: Iterable[str]) -> _gateway.Prescribing:
+def prescribing(system: BaseSystem, p: np.ndarray, names: Iterable[str]) -> gateway.Prescribing:
     """Quantities of positions that are prescribed, with scales near a position."""
     scale, components, indices, which = scales(system, p), 0, [], []
     for name in names:
@@ -55,7 +55,7 @@ def prescribing(system: BaseSystem, p: np.ndarray, names: Iterable[str]) -> _gat
         indices.append(place.number)
         which += [components + i for i in range(size) if place.component in (i, None)]
         components += size
-    return _gateway.Prescribing(small_core(system), system._measuring, indices, which, (scale.p, scale.v))
+    return gateway.Prescribing(small_core(system), system._measuring, indices, which, (scale.p, scale.v))
 
 
 def near_to(system: BaseSystem, near: Any, t: float) -> np.ndarray:
@@ -67,12 +67,12 @@ def near_to(system: BaseSystem, near: Any, t: float) -> np.ndarray:
         If there is no way to it.
     """
     if near is not None and not isinstance(near, Mapping):
-        return onto(system, t, _check.vector("near", near, system.nq))
+        return onto(system, t, checks.vector("near", near, system.nq))
     p = np.array(system._state_or_start(None, None, "near", "v", t)[0])
     if near is None:
         return p
     values, at = values_of(near, "near"), state(system, t, p, np.zeros(system.nv))
-    wanted = [_check.vector(f"near[{name!r}]", np.atleast_1d(value), len(find(at, name, "near").value))
+    wanted = [checks.vector(f"near[{name!r}]", np.atleast_1d(value), len(find(at, name, "near").value))
               for name, value in values.items()]
     tracked = prescribing(system, p, values).track(p, np.hstack([*wanted, t])[None])
     if tracked.reached is not None:

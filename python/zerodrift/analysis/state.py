@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .. import _check
-from .._gateway import CoreSystem, is_length
+from .._private import checks
+from .._private.gateway import CoreSystem, is_length
 from ..errors import ZerodriftError
 from ..systems.base import BaseSystem, core_of, system_of
 
@@ -108,7 +108,7 @@ def sizes_of(at: State, dp: np.ndarray, dv: np.ndarray, dt: float = 0.0) -> np.n
 
 def arguments(given: Any, p: Any, v: Any, t: Any) -> tuple[BaseSystem, float, np.ndarray, np.ndarray]:
     """The system of an argument and a checked state of it; what is left out is its start."""
-    system, t = system_of(given), _check.number("t", t)
+    system, t = system_of(given), checks.number("t", t)
     core_of(system)
     if p is None and v is None:
         p, v = system._state_or_start(None, None, "p", "v", t)

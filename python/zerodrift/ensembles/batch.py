@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .. import _check, _gateway
+from .._private import checks, gateway
 from ..mechanisms.system import MechanismSystem
 from ..runs.arguments import events as events_of
 from ..runs.arguments import settings
@@ -32,14 +32,14 @@ class Batch(NamedTuple):
     core_settings: Any                      # the same as a `zd_settings`
     rows: int                               # largest number of samples of a run
     columns: dict[str, tuple[str, Any]]     # group ("p", "v", "multipliers", "outputs") and column or columns of each output
-    outputs: _gateway.Outputs | None        # measures that the core records
+    outputs: gateway.Outputs | None        # measures that the core records
     closed_form: tuple[str, bool] | None    # vector unit of the closed-form functions, and whether they embed; None: matrix path
-    assembly: _gateway.Assembly | None      # settings that make starts consistent; None: starts are used unchanged
+    assembly: gateway.Assembly | None      # settings that make starts consistent; None: starts are used unchanged
     settings: dict[str, Any]                # as in `Solution.settings`; keeps t_eval alive, to which `core_settings` points
-    events: _gateway.Watcher | None         # events that the core evaluates
+    events: gateway.Watcher | None         # events that the core evaluates
     numbers: int                            # approximate count of numbers in the tables of one run
 
-    def core_of(self, tables: NumberTables) -> _gateway.CoreSystem:
+    def core_of(self, tables: NumberTables) -> gateway.CoreSystem:
         """System in the core whose functions all runs call."""
         return with_what_it_takes(self.system, tables.core, self.settings["vector"], self.core_settings)
 
@@ -69,12 +69,12 @@ def _batch(plan: Plan) -> Batch | None:
         return None
     if not plan.is_tabular:
         return None
-    span = _check.span(plan.t_span)
+    span = checks.span(plan.t_span)
     found = settings.plan(system, span, settings.Arguments(**options))
     if found.rows is None:
         return None
-    takes_closed_form = _gateway.takes_closed_form(core_of(system), found.core_settings)
-    closed_form = (found.settings["vector"], _gateway.takes_embeddings(found.core_settings)) if takes_closed_form else None
+    takes_closed_form = gateway.takes_closed_form(core_of(system), found.core_settings)
+    closed_form = (found.settings["vector"], gateway.takes_embeddings(found.core_settings)) if takes_closed_form else None
     tables = runs.tables(system, 0, 1, closed_form)      # closed-form functions are compiled here, once
     found_columns = _columns(system, plan.names, system._watching.core if tables is None else tables.core)
     family = None if tables is None else tables.family
@@ -82,7 +82,7 @@ def _batch(plan: Plan) -> Batch | None:
         return None
     batch = Batch(system, found.core_settings, found.rows, *found_columns, closed_form,
                   assembly(system, runs.hold) if runs.assembles(system) else None, found.settings,
-                  None if watched is None else _gateway.Watcher(core_of(system), watched, core_of(system)),
+                  None if watched is None else gateway.Watcher(core_of(system), watched, core_of(system)),
                   0 if family is None else family.numbers)
     if tables is not None:
         batch.core_of(tables)       # raises an error for a system without Taylor coefficients before the runs start
@@ -101,7 +101,7 @@ ANGLES = ("angle", "angular_velocity")      # measures of bodies that are also c
 
 
 def _columns(system: BaseSystem, names: tuple[str, ...],
-             core: _gateway.CoreSystem) -> tuple[dict[str, tuple[str, Any]], _gateway.Outputs | None] | None:
+             core: gateway.CoreSystem) -> tuple[dict[str, tuple[str, Any]], gateway.Outputs | None] | None:
     """Columns of the outputs in a sample, and the measures to record; None if the core cannot record one of the outputs."""
     groups = "p", "v", "multipliers"
     known = {name: [(groups[group], column) for group, column in found] for name, found in system._columns_of.items()}
@@ -110,7 +110,7 @@ def _columns(system: BaseSystem, names: tuple[str, ...],
     if any(len(known.get(name, ())) != 1 for name in names if name not in measured):
         return None
     numbers = list(dict.fromkeys(place.number for place in measured.values()))
-    outputs = _gateway.Outputs(numbers, system._watching.core, core) if numbers else None
+    outputs = gateway.Outputs(numbers, system._watching.core, core) if numbers else None
     sizes = outputs.sizes if outputs else ()
     ends = np.cumsum([0, *sizes]).tolist()
     columns: dict[str, tuple[str, Any]] = {name: known[name][0] for name in names if name not in measured}
@@ -121,7 +121,7 @@ def _columns(system: BaseSystem, names: tuple[str, ...],
     return {name: columns[name] for name in names}, outputs
 
 
-def batch_range(plan: Plan, batch: Batch, first: int, last: int, stop: _gateway.Stop | None) -> tuple[Part, list[int]] | None:
+def batch_range(plan: Plan, batch: Batch, first: int, last: int, stop: gateway.Stop | None) -> tuple[Part, list[int]] | None:
     """Make the runs first ... last - 1, or fewer if stopped; also return the indices of those left for `simulate`.
 
     None if the runs differ in more than numbers and must be made individually.
@@ -130,21 +130,21 @@ def batch_range(plan: Plan, batch: Batch, first: int, last: int, stop: _gateway.
     if tables is None:
         return None
     made = _make(plan, batch, tables, first, last, ("t", *(group for group, _ in batch.columns.values())), stop)
-    count = int(np.argmax(paused)) if (paused := made.status == _gateway.PAUSED).any() else last - first
+    count = int(np.argmax(paused)) if (paused := made.status == gateway.PAUSED).any() else last - first
     if not count:
         return nothing(0), []
     doubtful = ~diagnosis.are_beyond_doubt(made.statistics, made.kinetic, made.energy_error)
-    left = np.flatnonzero((made.way[:count] == _gateway.UNUSUAL) | plan.runs.are_not_finite(first, first + count))
+    left = np.flatnonzero((made.way[:count] == gateway.UNUSUAL) | plan.runs.are_not_finite(first, first + count))
     return _part(plan, batch, made, _messages(made, tables), doubtful[:count]), (left + first).tolist()
 
 
 def _make(plan: Plan, batch: Batch, tables: NumberTables, first: int, last: int, wanted: tuple[str, ...],
-          stop: _gateway.Stop | None = None) -> _gateway.BatchResults:
+          stop: gateway.Stop | None = None) -> gateway.BatchResults:
     p0, v0 = plan.runs.starts(tables, first, last)
     systems = tables._replace(core=batch.core_of(tables), p0=p0, v0=v0)
     room = plan.remembered.setdefault("events", FEW_EVENTS)     # occurrences of an event that fit into memory
     while True:
-        made = _gateway.run_batch(systems, batch.core_settings, last - first, batch.rows, tuple(dict.fromkeys(wanted)),
+        made = gateway.run_batch(systems, batch.core_settings, last - first, batch.rows, tuple(dict.fromkeys(wanted)),
                                   batch.assembly, stop, outputs=batch.outputs, events=batch.events, room=room)
         most = 0 if made.events is None else int(made.events.counts.max(initial=0))
         if most <= room:
@@ -152,7 +152,7 @@ def _make(plan: Plan, batch: Batch, tables: NumberTables, first: int, last: int,
         room = plan.remembered["events"] = most     # repeat with memory for all occurrences
 
 
-STATES = ("t", "p", "v", "input", "multipliers", *_gateway.COUNTS)
+STATES = ("t", "p", "v", "input", "multipliers", *gateway.COUNTS)
 
 
 def made_again(plan: Plan, run: int) -> Solution:
@@ -183,32 +183,32 @@ def _solution_in_lanes(plan: Plan, batch: Batch, tables: NumberTables, run: int)
     """Solution of a run made in SIMD lanes; None if this run is not."""
     begin = time.perf_counter()
     made = _make(plan, batch, tables, run, run + 1, STATES)
-    if made.way[0] != _gateway.IN_LANES:
+    if made.way[0] != gateway.IN_LANES:
         return None
     states = {name: column[0, :made.samples[0]] for name, column in made.columns.items()}
-    system, span = plan.runs.system(run), _check.span(plan.t_span)
+    system, span = plan.runs.system(run), checks.span(plan.t_span)
     core = closed_form_core_of(system, batch.settings["vector"], batch.core_settings)
     p0, v0 = system._state_or_start(*plan.runs.start(run, system, span[0]), t=span[0])
-    again, record = _gateway.Run(core, batch.core_settings, p0, v0), _gateway.Record(core, max(1, len(states["t"])))
+    again, record = gateway.Run(core, batch.core_settings, p0, v0), gateway.Record(core, max(1, len(states["t"])))
     again.record_states(record, states)
     rows = record.take()
-    for name in ("multipliers", *_gateway.COUNTS):
+    for name in ("multipliers", *gateway.COUNTS):
         rows[name][:] = states[name]
-    results = again.results()._replace(statistics=_gateway.Statistics(*made.statistics[0].tolist()),
+    results = again.results()._replace(statistics=gateway.Statistics(*made.statistics[0].tolist()),
                                        largest_kinetic=float(made.kinetic[0]))
     return solution_of_rows(system, span, batch.settings, record, results, time.perf_counter() - begin, int(made.status[0]),
                             made.messages[0] or "done", None if made.events is None else made.events.of(0))
 
 
-def _part(plan: Plan, batch: Batch, made: _gateway.BatchResults, messages: list[str], doubtful: np.ndarray) -> Part:
+def _part(plan: Plan, batch: Batch, made: gateway.BatchResults, messages: list[str], doubtful: np.ndarray) -> Part:
     """Part with the runs that were made."""
     count = len(doubtful)
     rows, t, kept = _kept(plan, made.samples[:count], made.columns["t"][:count])
     none = [None] * count
     t_events = none if made.events is None else [made.events.of(run)[0] for run in range(count)]
     status = made.status[:count]
-    ended = (status == _gateway.DONE) | (status == _gateway.EVENT)
-    paths = np.where(made.way[:count] == _gateway.IN_LANES, IN_LANES, BY_CORE).astype(np.uint8)
+    ended = (status == gateway.DONE) | (status == gateway.EVENT)
+    paths = np.where(made.way[:count] == gateway.IN_LANES, IN_LANES, BY_CORE).astype(np.uint8)
     arrays = {name: _rows(made.columns[group][:count, :, column], kept) for name, (group, column) in batch.columns.items()}
     arrays |= {name: place.pick(arrays[name]) for name in arrays if (place := batch.system._watching.find(name)) and place.form}
     return Part(rows, t, arrays, ~ended, messages[:count], paths, doubtful, none, t_events, none)
@@ -235,7 +235,7 @@ def _rows(column: np.ndarray, kept: slice | np.ndarray) -> np.ndarray:
     return np.array(column[:, kept]).reshape(-1, *column.shape[2:]) if isinstance(kept, slice) else column[kept]
 
 
-def _messages(made: _gateway.BatchResults, tables: NumberTables) -> list[str]:
+def _messages(made: gateway.BatchResults, tables: NumberTables) -> list[str]:
     """Message of each run; for a run that could not start, its error."""
     if not (made.status.any() or tables.refused):
         return ["done"] * len(made.status)
@@ -243,8 +243,8 @@ def _messages(made: _gateway.BatchResults, tables: NumberTables) -> list[str]:
     for run, (status, way, message) in enumerate(zip(made.status.tolist(), made.way.tolist(), made.messages, strict=True)):
         if run in tables.refused:
             said.append(tables.refused[run])
-        elif status < 0 and way == _gateway.NOT_BEGUN:
-            said.append(f"{_gateway.error_name(status)}: {message}")
+        elif status < 0 and way == gateway.NOT_BEGUN:
+            said.append(f"{gateway.error_name(status)}: {message}")
         else:
             said.append(message or "done")
     return said

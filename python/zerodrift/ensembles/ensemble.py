@@ -13,8 +13,8 @@ from typing import Any, Literal, Unpack
 
 import numpy as np
 
-from .. import _check, _gateway, _webassembly
-from .._types import ArrayLike, EnsembleOptions, Measures, SystemLike, Values
+from .._private import checks, gateway, webassembly
+from .._private.types import ArrayLike, EnsembleOptions, Measures, SystemLike, Values
 from ..errors import DrawingWarning, Interrupted, NoMemory, WorkerLost, WrongValue
 from ..runs.open.ending import with_solution
 from ..runs.open.keyboard import progress_of
@@ -137,13 +137,13 @@ def ensemble(system: SystemLike | Callable[..., SystemLike], t_span: float | tup
             ens = zd.ensemble(zd.models.hoecken, 1.0, parameters=zd.grid(ground=grounds, coupler=couplers), step=0.01,
                               outputs=["P.position"], executor=client.get_executor(), store="hoecken")
     """
-    runs = Runs(system, parameters, p0, v0, start, hold, assembles=_check.instance("assemble", assemble, bool, "True or False"))
-    keeps = keep is not None and bool(_check.choice("keep", keep, ("solutions",)))
+    runs = Runs(system, parameters, p0, v0, start, hold, assembles=checks.instance("assemble", assemble, bool, "True or False"))
+    keeps = keep is not None and bool(checks.choice("keep", keep, ("solutions",)))
     place = executors.checked(executor)
     if threads not in (None, 1):
-        _webassembly.refuse("threads", "1", "runs are made one after the other")
-    threads = min(runs.count, processors() if threads is None else _check.count("threads", threads))
-    chunk = None if chunk is None else _check.count("chunk", chunk)
+        webassembly.refuse("threads", "1", "runs are made one after the other")
+    threads = min(runs.count, processors() if threads is None else checks.count("threads", threads))
+    chunk = None if chunk is None else checks.count("chunk", chunk)
     if store is not None and keeps:
         raise WrongValue('keep must be left out with a store, which has outputs only; ens[i] repeats run i, with bitwise the '
                          "same result", "conflicting-arguments")
@@ -184,7 +184,7 @@ class _Work:
         except (MemoryError, WorkerLost) as error:
             with_solution(error, self._ensemble())
             if self._store and isinstance(error, WorkerLost):
-                _check.tell(error, f"what was done is in {self._store.folder}, and the same call goes on with it")
+                checks.tell(error, f"what was done is in {self._store.folder}, and the same call goes on with it")
             raise
         finally:
             close()
@@ -205,7 +205,7 @@ class _Work:
             if caught:
                 return
 
-    def _made(self, taken: tuple[int, int], stop: _gateway.Stop) -> None:
+    def _made(self, taken: tuple[int, int], stop: gateway.Stop) -> None:
         self._finished(taken[0], run_range(self._plan, *taken, stop))
 
     def _finished(self, first: int, part: Part) -> None:
@@ -237,5 +237,5 @@ def _ranges(parts: dict[int, Part]) -> list[tuple[int, int]]:
 def _where(executor: Any, threads: int) -> str:
     """Threads, processes or executor of the runs, for `repr`."""
     if executor is None:
-        return f"on {_check.counted(threads, 'thread')}"
+        return f"on {checks.counted(threads, 'thread')}"
     return f"in {threads} processes" if executor == "processes" else f"by {type(executor).__name__}"

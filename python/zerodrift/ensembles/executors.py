@@ -14,7 +14,7 @@ from concurrent.futures import BrokenExecutor, CancelledError, Executor
 from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
-from .. import _check, _gateway, _webassembly
+from .._private import checks, gateway, webassembly
 from ..errors import WorkerLost, WrongType, described, sentence
 from ..runs.arguments.settings import VECTOR_UNITS
 from ..runs.open.identity import version
@@ -35,11 +35,11 @@ def checked(executor: Any) -> Any:
     """Check the argument `executor` of `ensemble`."""
     if executor is None or executor == "processes" or callable(getattr(executor, "submit", None)):
         if executor is not None:
-            _webassembly.refuse("executor", "None", "there are no other processes")
+            webassembly.refuse("executor", "None", "there are no other processes")
         return executor
     raise WrongType('executor must be None, for the threads of this process, "processes", or an Executor, which has submit() as '
                     "those of concurrent.futures, loky, mpi4py.futures and dask's client.get_executor() have, not "
-                    f"{_check.shown(executor)}")
+                    f"{checks.shown(executor)}")
 
 
 def workers_of(executor: Any) -> int | None:
@@ -203,7 +203,7 @@ def check_stamp(stamp: dict[str, Any]) -> None:
     if stamp["version"] != version():
         raise WorkerLost(f"this worker has another zerodrift, {version()}, than the process that began the ensemble, "
                          f"{stamp['version']}; install the same")
-    unit, units = stamp["vector"], VECTOR_UNITS[:_gateway.PROCESSOR_UNIT + 1]
+    unit, units = stamp["vector"], VECTOR_UNITS[:gateway.PROCESSOR_UNIT + 1]
     if unit not in units:
         raise WorkerLost(f'the processor of this worker has no {unit}, with which the ensemble began: vector="avx2" | '
                             f'"baseline" takes one that all have; here there is {" and ".join(units)}')

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check, _gateway
-from .._types import Events
+from .._private import checks, gateway
+from .._private.types import Events
 from ..errors import WrongType, WrongValue, ZerodriftError
 from ..mechanisms.elements.measures import name_of
 from ..runs.arguments import events as events_of
@@ -85,7 +85,7 @@ class Plan:
     def solution(self, run: int, **options: Any) -> Solution:
         """Solution of one run, by `simulate`."""
         system = self.runs.system(run)
-        p, v = self.runs.start(run, system, _check.span(self.t_span)[0])
+        p, v = self.runs.start(run, system, checks.span(self.t_span)[0])
         return simulate(system, self.t_span, p, v, **self.options, **options)
 
 
@@ -97,11 +97,11 @@ def checked(runs: Runs, t_span: Any, outputs: Any, reduce: Any, *, keeps: bool, 
                             "wrong-name")
     options.update(vector=settings.vector_unit(options.get("vector")))
     if reduce is not None and not callable(reduce):
-        raise WrongType(f"reduce must be a function of a solution, not {_check.shown(reduce)}")
+        raise WrongType(f"reduce must be a function of a solution, not {checks.shown(reduce)}")
     names = _names(outputs)
     run, system = _first_system(runs)
     if system is not None:
-        span = _check.span(t_span)
+        span = checks.span(t_span)
         rows = _check_options(system, span, **options)
         _check_names(system, names or [])
         _check_starts(runs, run, system, span[0])
@@ -168,14 +168,14 @@ def _row_bytes(system: BaseSystem, names: list[str], *, keeps: bool) -> Iterator
     for name in names:
         yield 8 * system._watching.known.get(name, (0, 1))[1]
     if keeps:
-        yield _gateway.row_bytes(core_of(system), None)
+        yield gateway.row_bytes(core_of(system), None)
 
 
 def _check_names(system: BaseSystem, names: list[str]) -> None:
     for name in names:
         if name not in system._columns_of and system._watching.find(name) is None:
             raise WrongValue(f"no output is called {name!r} in {system.name}; "
-                             f"{_check.closest(name, system._names_of_quantities())}", "wrong-name")
+                             f"{checks.closest(name, system._names_of_quantities())}", "wrong-name")
 
 
 def _units(system: BaseSystem, names: list[str]) -> dict[str, str]:

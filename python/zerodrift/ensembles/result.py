@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
-from .._writing import with_suffix
+from .._private import checks
+from .._private.writing import with_suffix
 from ..errors import WrongIndex, WrongName, WrongType
 from ..systems.measure_values import AXES
 from . import exporting, saving
@@ -53,7 +53,7 @@ class Ensemble:
         self.messages, self.doubtful = tuple(part.messages), part.doubtful
         self.t_events = part.t_events
         t = part.t if plan.t_eval is None else plan.t_eval
-        self.t = _check.frozen(t) if part.is_shared else None
+        self.t = checks.frozen(t) if part.is_shared else None
         self.values = _together(part.values)
         self._starts = np.concatenate([[0], np.cumsum(part.rows)])      # first sample of each run
 
@@ -88,11 +88,11 @@ class Ensemble:
             if (component := self._component(name)) is not None:
                 return component
             if name not in self._names:
-                raise WrongName(f"no output is called {name!r}; {_check.closest(name, self._names) if self._names else 'none'}",
+                raise WrongName(f"no output is called {name!r}; {checks.closest(name, self._names) if self._names else 'none'}",
                                 "wrong-name")
             return self._stacked(name)
         if isinstance(key, bool | np.bool_) or not isinstance(key, int | np.integer):
-            raise WrongType(f"the key of an ensemble must be an output's name or a run's index, not {_check.shown(key)}")
+            raise WrongType(f"the key of an ensemble must be an output's name or a run's index, not {checks.shown(key)}")
         if not -len(self) <= key < len(self):
             raise WrongIndex(f"the index of a run must be below {len(self)}, not {key}")
         run = int(key) % len(self)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from .. import _gateway
+from .._private import gateway
 from ..errors import described
 from ..runs.open import diagnosis
 from ..runs.samples.solution import Solution
@@ -59,7 +59,7 @@ def _one_or_its_error(plan: Plan, run: int, is_cancelled: Callable[[], bool]) ->
 
 def _in_batches(plan: Plan, batch: Batch, first: int, last: int, is_cancelled: Callable[[], bool]) -> Part:
     """Make runs in batches of the core whose memory is bounded."""
-    stop, made = is_cancelled if isinstance(is_cancelled, _gateway.Stop) else None, []
+    stop, made = is_cancelled if isinstance(is_cancelled, gateway.Stop) else None, []
     try:
         while first < last and not is_cancelled():
             end = min(last, first + batch.runs_at_once)
@@ -71,7 +71,7 @@ def _in_batches(plan: Plan, batch: Batch, first: int, last: int, is_cancelled: C
 
 
 def _parts(plan: Plan, batch: Batch, first: int, last: int, is_cancelled: Callable[[], bool],
-           stop: _gateway.Stop | None) -> list[Part]:
+           stop: gateway.Stop | None) -> list[Part]:
     """Make the runs of one batch; those that the core leaves to `simulate` are inserted in order."""
     found = batch_range(plan, batch, first, last, stop)
     if found is None and last == first + 1:

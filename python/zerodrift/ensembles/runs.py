@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
-from .._types import ArrayLike
+from .._private import checks
+from .._private.types import ArrayLike
 from ..errors import WrongType, WrongValue, ZerodriftError
 from ..mechanisms.elements.measures import name_of
 from ..mechanisms.system import MechanismSystem
@@ -72,7 +72,7 @@ def grid(values: Mapping[str, ArrayLike] | None = None, /, **named: ArrayLike) -
     <grid of 2 crank.mass x 3 damping>
     """
     if values is not None and not isinstance(values, Mapping):
-        raise WrongType(f"values must be a dict of values by name, not {_check.shown(values)}")
+        raise WrongType(f"values must be a dict of values by name, not {checks.shown(values)}")
     for name in named:
         if name in (values or {}):
             raise WrongType(f"{name!r} is given twice", "duplicate-name")
@@ -83,7 +83,7 @@ def grid(values: Mapping[str, ArrayLike] | None = None, /, **named: ArrayLike) -
 
 
 def _column(name: str, value: Any) -> np.ndarray:
-    return _check.real(f"parameter {name!r} must hold", value)
+    return checks.real(f"parameter {name!r} must hold", value)
 
 
 class NoSystem(WrongType):
@@ -94,7 +94,7 @@ class NoSystem(WrongType):
 
 def named(function: Any) -> str:
     """Name of a function for messages."""
-    return getattr(function, "__qualname__", None) or _check.shown(function)
+    return getattr(function, "__qualname__", None) or checks.shown(function)
 
 
 class Runs:
@@ -126,7 +126,7 @@ class Runs:
         if isinstance(self.made, BaseSystem):
             core_of(self.made)
             for name in self.parameters:
-                _check.choice("parameter", name, self.made.parameters)
+                checks.choice("parameter", name, self.made.parameters)
 
     def _all(self, column: tuple[np.ndarray, bool]) -> np.ndarray:
         array, varies = column
@@ -157,7 +157,7 @@ class Runs:
         if not isinstance(self.made, BaseSystem):
             system = system_of(self.made(**parameters))
             if not isinstance(system, BaseSystem):
-                raise NoSystem(f"{named(self.made)} must return a system or a Mechanism, not {_check.shown(system)}")
+                raise NoSystem(f"{named(self.made)} must return a system or a Mechanism, not {checks.shown(system)}")
             return system._by_matrices()
         return self.made.with_parameters(parameters) if parameters else self.made
 
@@ -235,7 +235,7 @@ class Runs:
 
 def _dict(name: str, given: Any) -> Mapping:
     if not isinstance(given, Mapping):
-        raise WrongType(f"{name} must be a dict of values by name, not {_check.shown(given)}")
+        raise WrongType(f"{name} must be a dict of values by name, not {checks.shown(given)}")
     return given
 
 
@@ -247,7 +247,7 @@ def _columns(what: str, given: Any) -> tuple[dict[str, tuple[np.ndarray, bool]],
         return _rows(what, given)
     columns = {}
     for name, value in _dict(what, given).items():
-        array = _check.real(f"{what}[{name!r}] must hold", value)
+        array = checks.real(f"{what}[{name!r}] must hold", value)
         columns[name] = array, array.ndim > 0
     return columns, {f"{what}[{name!r}]": len(array) for name, (array, varies) in columns.items() if varies}
 
@@ -261,12 +261,12 @@ def _rows(what: str, given: Sequence) -> tuple[dict[str, tuple[np.ndarray, bool]
         if differing := set(row) ^ set(rows[0]):
             raise WrongValue(f"{what}[{i}] and {what}[0] must have the same names, and differ by {', '.join(sorted(differing))}",
                              "wrong-name")
-    columns = {name: (_check.real(f"{what} {name!r} must hold", [row[name] for row in rows]), True) for name in rows[0]}
+    columns = {name: (checks.real(f"{what} {name!r} must hold", [row[name] for row in rows]), True) for name in rows[0]}
     return columns, {what: len(rows)}
 
 
 def _state(name: str, given: Any) -> np.ndarray:
-    array = np.array(_check.real(f"{name} must hold", given), dtype=float)
+    array = np.array(checks.real(f"{name} must hold", given), dtype=float)
     if array.ndim not in (1, 2):
         raise WrongValue(f"{name} must have one axis, or a first axis for the runs and one more, not shape {array.shape}",
                          "shape")

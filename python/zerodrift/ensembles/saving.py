@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .. import _check
-from .._writing import write_arrays
+from .._private import checks
+from .._private.writing import write_arrays
 from ..errors import WrongType, ZerodriftError
 from ..runs.samples import saving
 from ..systems.base import BaseSystem
@@ -92,7 +92,7 @@ def value_as_json(value: Any) -> Any:
     if isinstance(value, dict) and all(isinstance(key, str) for key in value):
         return {"dict": {key: value_as_json(each) for key, each in value.items()}}
     raise WrongType(f"reduce must return what a file keeps: numbers, strings, arrays of numbers, and lists, tuples and dicts of "
-                    f"these, not {_check.shown(value)}", "not-portable")
+                    f"these, not {checks.shown(value)}", "not-portable")
 
 
 def value_from_json(value: Any) -> Any:
@@ -117,7 +117,7 @@ def packed_plan(plan: Plan | Kept) -> dict[str, np.ndarray]:
     starts = {name: array for name, (array, _) in runs.start_values.items()}
     groups = {"parameters": runs.parameters, "start": starts, "states": runs.states}
     description = {
-        "kind": WHAT, "t_span": list(_check.span(plan.t_span)), "names": plan.names, "units": plan.units, "shape": runs.shape,
+        "kind": WHAT, "t_span": list(checks.span(plan.t_span)), "names": plan.names, "units": plan.units, "shape": runs.shape,
         "count": runs.count,
         "settings": {name: saving.to_json(value.item() if isinstance(value, np.generic) else value)
                      for name, value in plan.options.items() if name != "events"},

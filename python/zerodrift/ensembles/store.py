@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check, _gateway
-from .._locking import Lock
-from .._writing import is_temporary, sweep, write_arrays, write_atomically
+from .._private import checks, gateway
+from .._private.locking import Lock
+from .._private.writing import is_temporary, sweep, write_arrays, write_atomically
 from ..errors import WrongValue
 from ..runs.arguments.settings import VECTOR_UNITS
 from ..runs.open.identity import Identity, differences, version
@@ -43,9 +43,9 @@ def vector_of(folder: str | Path) -> Any:
     ValueError
         If this processor does not have it.
     """
-    if not is_one(_check.instance("store", folder, str | Path, "the path of a folder")):
+    if not is_one(checks.instance("store", folder, str | Path, "the path of a folder")):
         return None
-    unit, units = _manifest(Path(folder)).get("vector"), VECTOR_UNITS[:_gateway.PROCESSOR_UNIT + 1]
+    unit, units = _manifest(Path(folder)).get("vector"), VECTOR_UNITS[:gateway.PROCESSOR_UNIT + 1]
     if unit not in units:
         raise WrongValue(f"store {str(folder)!r} was begun with {unit}, and the processor of {platform.node()} has "
                          f'{" and ".join(units)}: it goes on where that is, or elsewhere from the beginning with vector="avx2" | '
@@ -163,7 +163,7 @@ def manifest_of(plan: Plan) -> dict[str, Any]:
     described = {name: _described(value, found) for name, value in settings.items()}
     return {
         "what": WHAT, "format": FORMAT, "version": version(), "vector": plan.options["vector"], "runs": runs.count,
-        "t_span": list(_check.span(plan.t_span)), "outputs": list(plan.names), **made, "settings": described,
+        "t_span": list(checks.span(plan.t_span)), "outputs": list(plan.names), **made, "settings": described,
         "assemble": runs.may_assemble, "hold": saving.names_of(runs.hold), "functions": found.functions,
         "python": ".".join(platform.python_version_tuple()[:2]) if found.functions else None,     # their code depends on it
         "numbers": {name: {key: found.of(array) for key, array in each.items()} if isinstance(each, dict) else found.of(each)
@@ -217,10 +217,10 @@ def _other_column(name: str, old: np.ndarray | None, new: np.ndarray | None) -> 
     if old is None or new is None:
         return [f"{name} was {'not ' if old is None else ''}there and is {'not ' if new is None else ''}there"]
     if old.shape != new.shape or not old.ndim:
-        return [] if np.array_equal(old, new) else [f"{name} was {_check.shown(old)} and is {_check.shown(new)}"]
+        return [] if np.array_equal(old, new) else [f"{name} was {checks.shown(old)} and is {checks.shown(new)}"]
     other = np.flatnonzero((old != new).reshape(len(old), -1).any(axis=1))
-    return [f"{name} of {len(other)} runs, first run {other[0]}, where it was {_check.shown(old[other[0]].tolist())} and is "
-            f"{_check.shown(new[other[0]].tolist())}"] if len(other) else []
+    return [f"{name} of {len(other)} runs, first run {other[0]}, where it was {checks.shown(old[other[0]].tolist())} and is "
+            f"{checks.shown(new[other[0]].tolist())}"] if len(other) else []
 
 
 def _manifest(folder: Path) -> dict[str, Any]:

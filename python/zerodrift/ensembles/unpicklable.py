@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from types import CodeType, FunctionType, MethodType
 from typing import Any
 
-from .. import _check
+from .._private import checks
 from .runs import named
 
 
@@ -20,7 +20,7 @@ def unpicklable(what: Any, fits: Callable[[Any], bool]) -> str:
     functions = [each for each in path if callable(each) and not isinstance(each, type)]
     if not functions:
         return ""
-    reason = "" if functions[-1] is path[-1] else f" refers to {_check.shown(path[-1])}"
+    reason = "" if functions[-1] is path[-1] else f" refers to {checks.shown(path[-1])}"
     return f"{_named(functions[-1])}{reason}: "
 
 

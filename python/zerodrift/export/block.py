@@ -8,10 +8,10 @@ from typing import Any, NamedTuple, Unpack
 
 import numpy as np
 
-from .. import _check
-from .._gateway.mechanisms import blocks
-from .._gateway.mechanisms.element_tables import OutputSpec, law_sizes
-from .._types import ArrayLike, Measures, Settings, SystemLike
+from .._private import checks
+from .._private.gateway.mechanisms import blocks
+from .._private.gateway.mechanisms.element_tables import OutputSpec, law_sizes
+from .._private.types import ArrayLike, Measures, Settings, SystemLike
 from ..errors import WrongType, WrongValue
 from ..mechanisms.equations.measure_tables import read
 from ..mechanisms.equations.space_tables import tables_of
@@ -97,9 +97,9 @@ def block(system: SystemLike, p0: ArrayLike | None = None, v0: ArrayLike | None 
 def choose(system: Any, p0: Any, v0: Any, t0: float, step: float | None, outputs: Any, inputs: Sequence[str],
            **chosen: Any) -> Chosen:
     """Check the arguments of `block`."""
-    t0 = _check.number("t0", t0)
+    t0 = checks.number("t0", t0)
     system, p0, v0 = start_of(system, p0, v0, t0)
-    if core_of(_check.instance("system", system_of(system), MechanismSystem, "a mechanism or its system")).functions:
+    if core_of(checks.instance("system", system_of(system), MechanismSystem, "a mechanism or its system")).functions:
         raise WrongValue(f"user functions must depend on t, positions and velocities in a block, and some of {system.name} read "
                          "reactions", "not-portable")
     p, v = system._state_or_start(p0, v0, t=t0)
@@ -126,7 +126,7 @@ def _measures(names: Sequence[str], system: MechanismSystem) -> tuple[str, ...]:
 
 def _inputs(inputs: Any) -> tuple[str, ...]:
     if isinstance(inputs, str) or not isinstance(inputs, Sequence) or not all(isinstance(name, str) for name in inputs):
-        raise WrongType(f"inputs must be a list of names, not {_check.shown(inputs)}")
+        raise WrongType(f"inputs must be a list of names, not {checks.shown(inputs)}")
     return tuple(inputs)
 
 

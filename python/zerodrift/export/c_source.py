@@ -9,9 +9,9 @@ from typing import Unpack
 
 import numpy as np
 
-from .. import _check
-from .._gateway.mechanisms import blocks
-from .._types import ArrayLike, Measures, Settings, SystemLike
+from .._private import checks
+from .._private.gateway.mechanisms import blocks
+from .._private.types import ArrayLike, Measures, Settings, SystemLike
 from ..errors import ExistingFile
 from .block import Chosen, choose, written
 from .core_files import ENTRIES, CoreFiles, entry
@@ -65,7 +65,7 @@ def c_source(system: SystemLike, folder: str | Path, *, step: float, outputs: Me
     ...     sorted(path.name for path in made.iterdir() if path.suffix in (".c", ".h"))[:3]
     ['data.h', 'main.c', 'methods.h']
     """
-    step = _check.number("step", step, above=0, code="step-size")
+    step = checks.number("step", step, above=0, code="step-size")
     made = choose(system, p0, v0, t0, step, outputs, inputs, **chosen)
     folder = Path(folder)
     if folder.exists() and any(folder.iterdir()):

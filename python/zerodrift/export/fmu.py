@@ -13,10 +13,10 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
-from .. import _check, _gateway
-from .._gateway.mechanisms import blocks
-from .._types import ArrayLike, Events, Measures, Settings, SystemLike
-from .._writing import with_suffix, write_atomically
+from .._private import checks, gateway
+from .._private.gateway.mechanisms import blocks
+from .._private.types import ArrayLike, Events, Measures, Settings, SystemLike
+from .._private.writing import with_suffix, write_atomically
 from ..systems.measure_values import component_names
 from .block import Chosen, choose, written
 from .c_source import core_of, data
@@ -102,9 +102,9 @@ def fmu(system: SystemLike, path: str | Path, *, step: float, inputs: Sequence[s
     ...     zd.fmu(bar, folder + "/bar.fmu", step=0.001, outputs=["crank.angle"]).name
     'bar.fmu'
     """
-    _check.choice("version", version, VERSIONS)
+    checks.choice("version", version, VERSIONS)
     names = None if platforms is None else chosen_platforms(platforms, version)
-    made = choose(system, p0, v0, t0, _check.number("step", step, above=0, code="step-size"), list(outputs), inputs, **chosen)
+    made = choose(system, p0, v0, t0, checks.number("step", step, above=0, code="step-size"), list(outputs), inputs, **chosen)
     watched = chosen_events(events, made.system, version)
     made = made._replace(watched=tuple(each.measure for each in watched if each.measure))
     path = with_suffix(path, ".fmu")
@@ -120,7 +120,7 @@ def _packed(made: Chosen, identifier: str, version: str, platforms: Sequence[str
     """The zip file."""
     scalars = _scalars(made)
     events_table = table(events, made)
-    parts = (written(made), events_table.encode(), version.encode(), _gateway.FINGERPRINT.encode())
+    parts = (written(made), events_table.encode(), version.encode(), gateway.FINGERPRINT.encode())
     token = "{" + hashlib.sha256(b"".join(parts)).hexdigest()[:32] + "}"
     files = core_of(made, OPENED)
     own = {f"fmi{version[0]}.c": text(f"fmi{version[0]}.c"), "fmu.h": text("fmu.h"),
@@ -185,7 +185,7 @@ def _start(scalar: Scalar) -> str:
 def _heading(made: Chosen, version: str, token: str) -> str:
     return (f'<?xml version="1.0" encoding="UTF-8"?>\n<fmiModelDescription fmiVersion="{version}" '
             f'modelName={quoteattr(made.system.name)} {token} '
-            f'generationTool="zerodrift {_gateway.FINGERPRINT[:12]}" variableNamingConvention="structured">\n')
+            f'generationTool="zerodrift {gateway.FINGERPRINT[:12]}" variableNamingConvention="structured">\n')
 
 
 def _experiment(made: Chosen) -> str:

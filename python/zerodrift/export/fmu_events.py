@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from .._gateway import known_events
-from .._gateway.known_events import Reading
-from .._gateway.mechanisms import blocks
+from .._private.gateway import known_events
+from .._private.gateway.known_events import Reading
+from .._private.gateway.mechanisms import blocks
 from ..errors import WrongValue
 from ..runs.arguments import events as _events
 from ..systems.base import BaseSystem

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from .. import _check
+from .._private import checks
 from ..errors import CompilationFailed, WrongType, WrongValue
 from ..symbolics.compile import compilers
 from . import core_build
@@ -43,9 +43,9 @@ def chosen_platforms(names: Any, version: str) -> tuple[str, ...]:
         If the package ziglang is not installed.
     """
     if isinstance(names, str) or not isinstance(names, Sequence) or not names:
-        raise WrongType(f"platforms must be a list of names, not {_check.shown(names)}")
+        raise WrongType(f"platforms must be a list of names, not {checks.shown(names)}")
     for name in names:
-        _check.choice(f"platforms of FMI {version}", name, PLATFORMS[version])
+        checks.choice(f"platforms of FMI {version}", name, PLATFORMS[version])
     if compilers.zig() is None:
         raise CompilationFailed("libraries for platforms= must be compiled by ziglang: pip install zerodrift[fmu]")
     return tuple(dict.fromkeys(names))

@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from .._gateway.mechanisms import blocks, plane, space
-from .._gateway.mechanisms.element_tables import GeneralizedForce, OutputSpec
-from .._rotations import AXES
+from .._private.gateway.mechanisms import blocks, plane, space
+from .._private.gateway.mechanisms.element_tables import GeneralizedForce, OutputSpec
+from .._private.rotations import AXES
 
 BODY, POINT = 2, {2: 5, 3: 6}       # places in a marker quantity: the second body, and its point
 FAR = 1e9                           # m: limit of the point's coordinates

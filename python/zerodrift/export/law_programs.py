@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from .._gateway.mechanisms.blocks import FUNCTIONS, OPERATIONS
+from .._private.gateway.mechanisms.blocks import FUNCTIONS, OPERATIONS
 from ..errors import WrongValue
 from ..laws.table import Table
 from ..mechanisms.equations import function_calls, function_programs

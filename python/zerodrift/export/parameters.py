@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongType, WrongValue
 
 DEGREES = {1: 3, 2: 3, 3: 2}        # of each parameter, by the number of parameters of a word; higher ones fit rational functions
@@ -39,13 +39,13 @@ def computed_once(words: Words) -> Words:
 def ranges(given: Any, known: Mapping[str, float]) -> dict[str, tuple[float, float]]:
     """Check the argument `parameters` of `block`: names with smallest and largest values."""
     if not isinstance(given, Mapping):
-        raise WrongType(f"parameters must be a dict of ranges by names, not {_check.shown(given)}")
+        raise WrongType(f"parameters must be a dict of ranges by names, not {checks.shown(given)}")
     found = {}
     for name, limits in given.items():
         if name not in known:
-            raise WrongValue(f"parameters must name numbers of the mechanism, not {name!r}; {_check.closest(name, list(known))}",
+            raise WrongValue(f"parameters must name numbers of the mechanism, not {name!r}; {checks.closest(name, list(known))}",
                              "wrong-name")
-        least, most = (_check.number(f"range of {name!r}", each) for each in limits)
+        least, most = (checks.number(f"range of {name!r}", each) for each in limits)
         if not least <= known[name] <= most or least == most:
             raise WrongValue(f"the range of {name!r} must contain its value {known[name]:g}, and not be ({least:g}, {most:g})",
                              "out-of-range")

@@ -12,7 +12,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .. import _check, models
+from .. import models
+from .._private import checks
 from ..mechanisms.elements.forces import Motor
 from ..mechanisms.mechanism import Mechanism
 from ..runs.samples.solution import Solution
@@ -228,7 +229,7 @@ def exhibit(name: str) -> Exhibit:
     >>> gallery.exhibit("watt").path
     ('P',)
     """
-    _check.choice("name", name, _models())
+    checks.choice("name", name, _models())
     listed = next((each for each in TABLE if each.name == name), None)
     return listed or by_itself(name, getattr(models, name))
 

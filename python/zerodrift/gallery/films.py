@@ -10,7 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
-from .. import _check
+from .._private import checks
 from ..plot import animate
 from ..plot.drawing import moments_of
 from ..runs.samples.solution import Solution
@@ -44,9 +44,9 @@ def film(exhibit: Exhibit, *, frames: int = 16, width: int = 240, height: int = 
     >>> gallery.film(gallery.exhibit("watt"), frames=2)[:4]
     b'\x89PNG'
     """
-    _check.instance("exhibit", exhibit, Exhibit, "an Exhibit, as exhibit(name) returns it")
-    frames = _check.count("frames", frames, least=2)
-    width, height = _check.count("width", width, least=40), _check.count("height", height, least=40)
+    checks.instance("exhibit", exhibit, Exhibit, "an Exhibit, as exhibit(name) returns it")
+    frames = checks.count("frames", frames, least=2)
+    width, height = checks.count("width", width, least=40), checks.count("height", height, least=40)
     solution = exhibit.run() if solution is None else solution
     figure = Figure(figsize=(width / DPI, height / DPI), dpi=DPI, layout="constrained")
     canvas = FigureCanvasAgg(figure)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 from pathlib import Path
 
-from .._writing import write_atomically
+from .._private.writing import write_atomically
 from .exhibits import Exhibit, exhibits
 from .films import film
 

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
-from .._types import ArrayLike
+from .._private import checks
+from .._private.types import ArrayLike
 from ..errors import WrongType, WrongValue
 from ..systems import autodiff
 
@@ -60,10 +60,10 @@ def table(x: ArrayLike, y: ArrayLike | None = None, *, argument: str = "t") -> T
         x, y = _read(Path(x))
     elif y is None:
         raise WrongType(f"a table must have x and y, or the path of a CSV file, not {type(x).__name__} alone")
-    x = np.array(_check.real("x of a table must hold", x), dtype=float)
+    x = np.array(checks.real("x of a table must hold", x), dtype=float)
     if x.ndim != 1 or x.size < 2:
         raise WrongValue(f"x of a table must have shape (n,) with n at least 2, not {x.shape}", "shape")
-    y = _check.vector("y of a table", y, x.size)
+    y = checks.vector("y of a table", y, x.size)
     if not (np.diff(x) > 0).all():
         place = int(np.flatnonzero(~(np.diff(x) > 0))[0])
         raise WrongValue(f"x of a table must increase, and x[{place + 1}] = {x[place + 1]:g} follows x[{place}] = {x[place]:g}",
@@ -96,7 +96,7 @@ class Table:
     """Piecewise cubic; `coefficients` (4, n - 1) of powers 3, 2, 1, 0 of the distance from the previous point."""
 
     def __init__(self, x: np.ndarray, coefficients: np.ndarray, argument: str) -> None:
-        self.x, self.coefficients, self.argument = x, coefficients, _check.instance("argument", argument, str, "a name")
+        self.x, self.coefficients, self.argument = x, coefficients, checks.instance("argument", argument, str, "a name")
         self.__signature__ = inspect.Signature([inspect.Parameter(argument, inspect.Parameter.POSITIONAL_OR_KEYWORD)])
 
     def __call__(self, *given: Any, **named: Any) -> Any:

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
-from .._types import ArrayLike
+from .._private import checks
+from .._private.types import ArrayLike
 from ..errors import SingularSystem, WrongType, WrongValue
 from .assembly.start import Starting
 from .building.link_shape import Shape, on_sides
@@ -80,7 +80,7 @@ def linkage(points: Mapping[str, ArrayLike], links: Mapping[str, str | Sequence[
     >>> sol["F.position"].shape, bool(abs(sol.position_violation).max() < 1e-12)
     ((501, 2), True)
     """
-    scale = _check.number("scale", scale, above=0)
+    scale = checks.number("scale", scale, above=0)
     drawn = _read_points(points, scale)
     links = _read_links(links, drawn)
     lengths = _read_lengths(lengths, links, scale)
@@ -133,25 +133,25 @@ def _join(m: Mechanism, name: str, sides: Mapping[str, Point]) -> None:
 
 def _read_points(points: Any, scale: float) -> dict[str, np.ndarray]:
     """Position of each point in the sketch, in m."""
-    _check.instance("points", points, Mapping, "a dict of places by name")
+    checks.instance("points", points, Mapping, "a dict of places by name")
     for name in points:
         if not isinstance(name, str):
-            raise WrongType(f"points must have strings for names, not {_check.shown(name)}")
-    return {name: scale * _check.vector(f"points[{name!r}]", place, 2) for name, place in points.items()}
+            raise WrongType(f"points must have strings for names, not {checks.shown(name)}")
+    return {name: scale * checks.vector(f"points[{name!r}]", place, 2) for name, place in points.items()}
 
 
 def _read_links(links: Any, points: Mapping[str, Any]) -> dict[str, tuple[str, ...]]:
     """Points of each link, the ground's first."""
-    _check.instance("links", links, Mapping, "a dict of points by link")
+    checks.instance("links", links, Mapping, "a dict of points by link")
     if GROUND not in links:
         raise WrongValue(f"links must have {GROUND!r}, the points that do not move; there are {', '.join(map(repr, links))}",
                          "missing-argument")
     read = {link: _names(f"links[{link!r}]", names, points) for link, names in links.items()}
     for link, names in read.items():
         if len(names) < 2 - (link == GROUND):
-            raise WrongValue(f"links[{link!r}] must have two points or more, not {_check.shown(links[link])}", "shape")
+            raise WrongValue(f"links[{link!r}] must have two points or more, not {checks.shown(links[link])}", "shape")
         if len(set(names)) < len(names):
-            raise WrongValue(f"links[{link!r}] must have each of its points once, not {_check.shown(links[link])}",
+            raise WrongValue(f"links[{link!r}] must have each of its points once, not {checks.shown(links[link])}",
                              "duplicate-name")
         if link in points:
             raise WrongValue(f"{link!r} is a link and a point: each needs a name of its own", "duplicate-name")
@@ -165,23 +165,23 @@ def _read_links(links: Any, points: Mapping[str, Any]) -> dict[str, tuple[str, .
 def _names(argument: str, given: Any, points: Mapping[str, Any]) -> tuple[str, ...]:
     """Names of points: the letters of a string, or a sequence of names."""
     if not isinstance(given, Sequence) or not all(isinstance(name, str) for name in given):
-        raise WrongType(f"{argument} must be a string of one-letter points or a sequence of names, not {_check.shown(given)}")
+        raise WrongType(f"{argument} must be a string of one-letter points or a sequence of names, not {checks.shown(given)}")
     for name in given:
         if name not in points:
-            raise WrongValue(f"{argument} names {name!r}, which is none of the points; {_check.closest(name, points)}",
+            raise WrongValue(f"{argument} names {name!r}, which is none of the points; {checks.closest(name, points)}",
                              "wrong-name")
     return tuple(given)
 
 
 def _read_lengths(lengths: Any, links: Mapping[str, tuple[str, ...]], scale: float) -> dict[frozenset[str], float]:
     """Lengths in m by pairs of points."""
-    _check.instance("lengths", {} if lengths is None else lengths, Mapping, "a dict of lengths by pairs of points")
+    checks.instance("lengths", {} if lengths is None else lengths, Mapping, "a dict of lengths by pairs of points")
     read: dict[frozenset[str], float] = {}
     for given, length in (lengths or {}).items():
         pair = _pair(given, links)
         if pair in read:
             raise WrongValue(f"lengths has {' and '.join(map(repr, sorted(pair)))} twice", "duplicate-name")
-        read[pair] = scale * _check.number(f"lengths[{given!r}]", length, above=0)
+        read[pair] = scale * checks.number(f"lengths[{given!r}]", length, above=0)
     return read
 
 
@@ -193,7 +193,7 @@ def _pair(given: Any, links: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
                          "wrong-name")
     pair = frozenset(_names("lengths", given, points))
     if len(pair) != 2 or len(given) != 2:
-        raise WrongValue(f"lengths must be between two points, such as {''.join(list(points)[:2])!r}, not {_check.shown(given)}")
+        raise WrongValue(f"lengths must be between two points, such as {''.join(list(points)[:2])!r}, not {checks.shown(given)}")
     if not any(pair <= set(names) for names in links.values()):
         raise WrongValue(f"lengths[{given!r}] must name two points of one link, and no link has both", "wrong-name")
     return pair
@@ -202,10 +202,10 @@ def _pair(given: Any, links: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
 def _read_masses(mass: Any, links: Mapping[str, Any]) -> dict[str, float]:
     """Mass of each link; the ground has none."""
     if not isinstance(mass, Mapping):
-        mass = _check.number("mass", mass, least=0)
+        mass = checks.number("mass", mass, least=0)
         return {link: 0.0 if link == GROUND else mass for link in links}
     for link in mass:
         if link not in links or link == GROUND:
             raise WrongValue(f"mass names {link!r}, which is not a link that moves; "
-                             f"{_check.closest(link, [each for each in links if each != GROUND])}", "wrong-name")
-    return {link: _check.number(f"mass[{link!r}]", mass.get(link, 0.0), least=0) for link in links}
+                             f"{checks.closest(link, [each for each in links if each != GROUND])}", "wrong-name")
+    return {link: checks.number(f"mass[{link!r}]", mass.get(link, 0.0), least=0) for link in links}

@@ -9,8 +9,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import _check
-from .._writing import with_suffix, write_atomically
+from .._private import checks
+from .._private.writing import with_suffix, write_atomically
 from ..errors import WrongType, WrongValue
 from ..systems.base import Makes, Terms
 from .building.body_verbs import BodyVerbs
@@ -76,11 +76,11 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
     def __init__(self, name: str, *, dimension: int = 2, gravity: ArrayLike | None = None,
                  parameters: Mapping[str, float] | None = None) -> None:
         if not isinstance(name, str) or not name:
-            raise WrongType(f"name must be a string that is not empty, not {_check.shown(name)}")
+            raise WrongType(f"name must be a string that is not empty, not {checks.shown(name)}")
         if dimension not in (2, 3) or isinstance(dimension, bool):
-            raise WrongValue(f"dimension must be 2, the plane, or 3, space, not {_check.shown(dimension)}", "wrong-dimension")
+            raise WrongValue(f"dimension must be 2, the plane, or 3, space, not {checks.shown(dimension)}", "wrong-dimension")
         self.name, self.dimension = name, int(dimension)
-        self.gravity = np.zeros(self.dimension) if gravity is None else _check.vector("gravity", gravity, self.dimension)
+        self.gravity = np.zeros(self.dimension) if gravity is None else checks.vector("gravity", gravity, self.dimension)
         super().__init__(parameters)
 
     def system(self, coordinates: Literal["joint", "absolute"] | None = None, compiled: bool | None = None) -> MechanismSystem:
@@ -133,9 +133,9 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         >>> m.system("absolute")
         <system of pendulum: absolute coordinates, 3, 2 holonomic and 0 nonholonomic constraints>
         """
-        layout = None if coordinates is None else _check.choice("coordinates", coordinates, LAYOUTS)
+        layout = None if coordinates is None else checks.choice("coordinates", coordinates, LAYOUTS)
         if compiled is not None:
-            _check.instance("compiled", compiled, bool, "None, True or False")
+            checks.instance("compiled", compiled, bool, "None, True or False")
         return MechanismSystem(self._drawing(), layout, {}, compiled)
 
     def with_parameters(self, changes: Mapping[str, float] | None = None, /, **changed: float) -> MechanismSystem:
@@ -284,6 +284,6 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         return report(self._drawing())
 
     def _drawing(self) -> Drawing:
-        gravity = np.array(_check.vector("gravity", self.gravity, self.dimension))
+        gravity = np.array(checks.vector("gravity", self.gravity, self.dimension))
         return Drawing(self.name, gravity, dict(self.parameters), dict(self._elements), dict(self._held), dict(self._wished),
                        self._is_balanced)

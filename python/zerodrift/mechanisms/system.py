@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import _check, _gateway
-from .._gateway import CoreSystem, Variable
-from .._gateway import is_length as is_length_of
-from .._gateway.base import row_named
-from .._gateway.compiled.precise import Precise
-from .._gateway.mechanisms import law_inputs
-from .._gateway.mechanisms.core import MechanismCore
+from .._private import checks, gateway
+from .._private.gateway import CoreSystem, Variable
+from .._private.gateway import is_length as is_length_of
+from .._private.gateway.base import row_named
+from .._private.gateway.compiled.precise import Precise
+from .._private.gateway.mechanisms import law_inputs
+from .._private.gateway.mechanisms.core import MechanismCore
 from ..errors import WrongValue, ZerodriftError, sentence
 from ..symbolics.compile.closed_form_library import CLOSED_FORM, ClosedFormFunctions
 from ..systems.defaults import WithInputs
@@ -195,7 +195,7 @@ class MechanismSystem(Reported):
         if embeds or not self.compiled or not core.has_closed_form:
             return core
         library = self._closed_form[1].library_in_lanes(vector)
-        return core if library is None else core.with_lanes(_gateway.address_of(library, CLOSED_FORM), library)
+        return core if library is None else core.with_lanes(gateway.address_of(library, CLOSED_FORM), library)
 
     def _with_jacobian(self, core: CoreSystem, vector: str = "baseline") -> CoreSystem:
         return self._written.with_jacobian(vector) if self.compiled and core is self._core else core
@@ -219,7 +219,7 @@ class MechanismSystem(Reported):
         usual = super()._formulation
         if not all(self._tables.inertias.is_massive(body) for body in self._tables.parts):
             try:
-                _gateway.acceleration(self._core, row_named("formulations", usual), 0, 0.0, *self.start_at(0.0))
+                gateway.acceleration(self._core, row_named("formulations", usual), 0, 0.0, *self.start_at(0.0))
             except ZerodriftError as error:
                 return "augmented" if error.code == "mass-not-definite" else usual
         return usual
@@ -260,7 +260,7 @@ class MechanismSystem(Reported):
             from ..analysis.equilibrium import balanced  # slow to import and rarely needed
 
             p, v = balanced(self, t, p, v)
-        return _check.frozen(p), _check.frozen(v)
+        return checks.frozen(p), checks.frozen(v)
 
     def _assembled(self, held: Any, wish: Any, nudge: float, t: float) -> tuple[np.ndarray, np.ndarray]:
         """State at a time with held and wished values in addition to the mechanism's own start."""
@@ -281,7 +281,7 @@ class MechanismSystem(Reported):
     def _check_unique(self, t: float, p: np.ndarray, v: np.ndarray) -> None:
         """Check that redundant constraints leave the reactions unique that user functions read."""
         laws = [law for element in self._drawing.elements.values() for law in [getattr(element, "law", None)] if law is not None]
-        read = [(law, name) for law in laws for name in law.reactions.values()] if 0 < self.m <= _gateway.MAX_LEAST else []
+        read = [(law, name) for law in laws for name in law.reactions.values()] if 0 < self.m <= gateway.MAX_LEAST else []
         for law, name in read:
             place = self._watching.find(name)
             if place is not None and not self._watching.is_unique_at(place, t, p, v):
@@ -354,7 +354,7 @@ class MechanismSystem(Reported):
 
     def points(self, p: ArrayLike) -> np.ndarray | Any:
         """Outline at p: points (n, dimension) in m, joined by lines where not NaN."""
-        poses, _ = self._core.poses(_check.vector("p", p, self.nq))
+        poses, _ = self._core.poses(checks.vector("p", p, self.nq))
         return (space_outline if self._drawing.dimension == 3 else outline)(self._drawing, self._numbers, poses)
 
     def _sketches(self, positions: Sequence[np.ndarray], motion: Sequence[np.ndarray] = ()) -> list[list[Shape]]:

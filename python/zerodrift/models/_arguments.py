@@ -7,7 +7,7 @@ import inspect
 from collections.abc import Callable
 from typing import ParamSpec
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongType
 from ..mechanisms.mechanism import Mechanism
 
@@ -30,7 +30,7 @@ def checked(model: Callable[Given, Mechanism]) -> Callable[Given, Mechanism]:
         for name in numbers:
             if name in taken.arguments and not (taken.arguments[name] is None and signature.parameters[name].default is None):
                 least = 0 if name.rpartition("_")[2] in NOT_NEGATIVE else None
-                taken.arguments[name] = _check.number(name, taken.arguments[name], least=least)
+                taken.arguments[name] = checks.number(name, taken.arguments[name], least=least)
         return model(*taken.args, **taken.kwargs)
 
     return make

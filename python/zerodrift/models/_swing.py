@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 from typing import Any
 
-from .. import _check
+from .._private import checks
 from ..errors import MissingPackage
 
 
@@ -25,10 +25,10 @@ def symbol(name: str) -> Any:
 
 def swing(amplitude: Any, rate: Any) -> Any:
     """The expression amplitude sin(rate t)."""
-    return _check.number("amplitude", amplitude) * sympy().sin(_check.number("rate", rate) * symbol("t"))
+    return checks.number("amplitude", amplitude) * sympy().sin(checks.number("rate", rate) * symbol("t"))
 
 
 def swing_from(amplitude: Any, rate: Any, phase: float) -> Any:
     """The expression amplitude (sin(rate t + phase) - sin(phase)), which is zero at t = 0."""
-    turned = sympy().sin(_check.number("rate", rate) * symbol("t") + phase) - sympy().sin(sympy().Float(phase))
-    return _check.number("amplitude", amplitude) * turned
+    turned = sympy().sin(checks.number("rate", rate) * symbol("t") + phase) - sympy().sin(sympy().Float(phase))
+    return checks.number("amplitude", amplitude) * turned

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
-from .. import _check
+from .._private import checks
 from ..mechanisms.mechanism import Mechanism
 
 # In m, kg, kg m^2, N/m and N m, named as in the literature.
@@ -57,7 +57,7 @@ def andrews(**parameters: float) -> Mechanism:
     >>> print(sol["K1.angle"][-1].round(6))
     15.810771
     """
-    given = {_check.choice("parameter", name, PARAMETERS): _check.number(f"parameter {name!r}", value)
+    given = {checks.choice("parameter", name, PARAMETERS): checks.number(f"parameter {name!r}", value)
              for name, value in parameters.items()}
     k, q = SimpleNamespace(**(PARAMETERS | given)), SimpleNamespace(**START)
     m = Mechanism("andrews")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .. import _check
+from .._private import checks
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
 from ._swing import swing
@@ -54,8 +54,8 @@ def bicycle(*, wheelbase: float = 1.1, centre: float = 0.5, mass: float = 85.0, 
     True
     """
     m = Mechanism("bicycle")
-    wheelbase = _check.number("wheelbase", wheelbase, above=0)
-    frame = m.body("frame", mass, inertia, com=(_check.number("centre", centre), 0))
+    wheelbase = checks.number("wheelbase", wheelbase, above=0)
+    frame = m.body("frame", mass, inertia, com=(checks.number("centre", centre), 0))
     fork = m.body("fork", fork_mass, fork_inertia, at=(wheelbase, 0))
     rear, front = frame.point((0, 0)), fork.point((0, 0))
     m.revolute("head", frame, front)
@@ -67,5 +67,5 @@ def bicycle(*, wheelbase: float = 1.1, centre: float = 0.5, mass: float = 85.0, 
     m.motor("slalom", "head", torque=stiffness * swing(amplitude, frequency))
     if thrust:
         m.force("thrust", rear, along=(1, 0), value=thrust, frame=frame)
-    m.start({"frame.velocity.x": _check.number("speed", speed)})
+    m.start({"frame.velocity.x": checks.number("speed", speed)})
     return m

@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check, inertia
+from .. import inertia
+from .._private import checks
 from ..errors import WrongValue
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
@@ -62,18 +63,18 @@ def cam_follower(*, lift: float = 0.0254, base: float = 0.05, rise: float = np.p
     >>> bool(abs(np.ptp(sol["guide.displacement"]) - 0.0254) < 1e-12), bool(sol["contact.force"].min() > 0)
     (True, True)
     """
-    base = _check.number("base", base, above=0)
-    rise, dwell, fall = (_check.number(name, value, above=0) for name, value in
+    base = checks.number("base", base, above=0)
+    rise, dwell, fall = (checks.number(name, value, above=0) for name, value in
                          (("rise", rise), ("dwell", dwell), ("fall", fall)))
     if not rise + dwell + fall < 2 * np.pi:
         raise WrongValue(f"rise, dwell and fall must be less than a turn together, {2 * np.pi:g}, not {rise + dwell + fall:g}",
                          "out-of-range")
-    m = Mechanism("cam_follower", gravity=(0.0, -_check.number("gravity", gravity)))
-    cam = m.body("cam", *inertia.disc(mass=_check.number("cam_mass", cam_mass, above=0), radius=base))
+    m = Mechanism("cam_follower", gravity=(0.0, -checks.number("gravity", gravity)))
+    cam = m.body("cam", *inertia.disc(mass=checks.number("cam_mass", cam_mass, above=0), radius=base))
     follower = m.body("follower", follower_mass, at=(0, base))
     m.revolute("shaft", m.ground, cam, at=(0, 0))
     m.prismatic("guide", m.ground, follower, axis=(0, 1))
-    m.cam("contact", "shaft", "guide", profile=_profile(_check.number("lift", lift, above=0), rise, dwell, fall))
+    m.cam("contact", "shaft", "guide", profile=_profile(checks.number("lift", lift, above=0), rise, dwell, fall))
     top = m.ground.point((0, 2 * base + lift))
     if stiffness > 0:
         m.spring("spring", top, follower.point((0, 0)), stiffness=stiffness, length=base + lift + preload / stiffness)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import _check
+from .._private import checks
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
@@ -50,7 +50,7 @@ def chebyshev_lambda(*, crank: float = 0.1, speed: float = 2 * np.pi, mass: Mapp
     >>> bool(abs(np.ptp(x) - 0.4) < 0.1), bool(np.ptp(y) < 0.01 * np.ptp(x))
     (True, True)
     """
-    crank = _check.number("crank", crank, above=0)
+    crank = checks.number("crank", crank, above=0)
     m = linkage({"A": (0, 0), "B": (0, 1), "C": (2, 2.5), "D": (2, 0), "P": (4, 4)},
                 {"ground": "AD", "crank": "AB", "coupler": "BCP", "rocker": "DC"},
                 lengths={"AB": 1, "AD": 2, "BC": 2.5, "CP": 2.5, "BP": 5, "DC": 2.5}, scale=crank, mass=mass, gravity=gravity,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongValue
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
@@ -51,17 +51,17 @@ def closed_pendulum(links: int = 4, *, length: float = 1.0, mass: float = 1.0, g
     >>> print(repr(zd.models.closed_pendulum(links=6)))
     <Mechanism closed_pendulum: plane, 6 bodies, 7 joints; no forces but gravity (0, -9.81)>
     """
-    n = _check.count("links", links, least=3)
-    length = _check.number("length", length, above=0)
+    n = checks.count("links", links, least=3)
+    length = checks.number("length", length, above=0)
     # A sum of n terms of plus or minus one is odd where n is. As `half` is not, the links cannot all line up with the pins.
     half = n // 2 + (n // 2 - n + 1) % 2
-    span = half * length if span is None else _check.number("span", span, above=0)
+    span = half * length if span is None else checks.number("span", span, above=0)
     if span >= n * length:
         raise WrongValue(f"span must be less than {n} links of {length:g} m together, {n * length:g} m, not {span:g}", "geometry")
     steps = length * np.exp(1j * arch(n, span / length))
     places = np.concatenate([[0.0], np.cumsum(steps)])
     drawn = [(float(place.real), float(place.imag)) for place in places]
-    m = Mechanism("closed_pendulum", gravity=(0.0, -_check.number("gravity", gravity)))
+    m = Mechanism("closed_pendulum", gravity=(0.0, -checks.number("gravity", gravity)))
     last = m.ground.point(drawn[0])
     for i in range(n):
         link = m.link(f"link{i + 1}", drawn[i], drawn[i + 1], mass, length=length)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongValue
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
@@ -51,9 +51,9 @@ def four_bar(*, lengths: ArrayLike = (1.0, 0.3, 1.0, 0.6), masses: ArrayLike = (
     >>> bool(abs(sol.position_violation).max() < 1e-12)
     True
     """
-    given = _check.vector("lengths", lengths, 4).tolist()
-    ground, crank, coupler, rocker = (_check.number(f"lengths[{i}]", length, above=0) for i, length in enumerate(given))
-    masses = _check.vector("masses", masses, 3).tolist()
+    given = checks.vector("lengths", lengths, 4).tolist()
+    ground, crank, coupler, rocker = (checks.number(f"lengths[{i}]", length, above=0) for i, length in enumerate(given))
+    masses = checks.vector("masses", masses, 3).tolist()
     at = crank * np.array([np.cos(crank_angle), np.sin(crank_angle)])
     apart = np.hypot(*(at - (ground, 0)))
     if not abs(coupler - rocker) < apart < coupler + rocker:
@@ -61,7 +61,7 @@ def four_bar(*, lengths: ArrayLike = (1.0, 0.3, 1.0, 0.6), masses: ArrayLike = (
                          f"rad they begin {apart:g} m apart; lengths are {ground:g}, {crank:g}, {coupler:g}, {rocker:g} m",
                          "geometry")
     high = np.array([ground - 0.1 * rocker, rocker])        # roughly: lengths count
-    m = Mechanism("four_bar", gravity=(0.0, -_check.number("gravity", gravity)))
+    m = Mechanism("four_bar", gravity=(0.0, -checks.number("gravity", gravity)))
     links = [m.link("crank", (0, 0), at, masses[0]), m.link("coupler", at, high, masses[1], length=coupler),
              m.link("rocker", high, (ground, 0), masses[2], length=rocker)]
     m.revolute("A", m.ground, links[0].start)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 
-from .. import _check
+from .._private import checks
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
 
@@ -46,9 +46,9 @@ def four_bars(loops: int = 2, *, length: float = 1.0, mass: float = 1.0, gravity
     >>> bool(abs(sol["crank0.angle"] - sol["crank4.angle"]).max() < 1e-10)
     True
     """
-    n = _check.count("loops", loops, least=1)
-    L = _check.number("length", length, above=0)
-    m = Mechanism("four_bars", gravity=(0.0, -_check.number("gravity", gravity)))
+    n = checks.count("loops", loops, least=1)
+    L = checks.number("length", length, above=0)
+    m = Mechanism("four_bars", gravity=(0.0, -checks.number("gravity", gravity)))
     cranks = [m.link(f"crank{i}", (i * L, 0), (i * L, L), mass) for i in range(n + 1)]
     for i, crank in enumerate(cranks):
         m.revolute(f"ground{i}", m.ground, crank.start)
@@ -56,5 +56,5 @@ def four_bars(loops: int = 2, *, length: float = 1.0, mass: float = 1.0, gravity
         bar = m.link(f"bar{i}", left.drawn_end, right.drawn_end, mass)
         m.revolute(f"left{i}", left.end, bar.start)
         m.revolute(f"right{i}", bar.end, right.end)
-    m.start({"crank0.angular_velocity": -_check.number("speed", speed) / L})
+    m.start({"crank0.angular_velocity": -checks.number("speed", speed) / L})
     return m

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongValue
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
@@ -62,7 +62,7 @@ def hoecken(*, crank: float = 0.1, ground: float = 2.5, coupler: float = 3.25, s
     >>> bool(np.ptp(x) > 0.35), bool(np.ptp(y) < 0.0003 * np.ptp(x))
     (True, True)
     """
-    g, c = _check.number("ground", ground, above=1), _check.number("coupler", coupler, above=0)
+    g, c = checks.number("ground", ground, above=1), checks.number("coupler", coupler, above=0)
     if not c > (g + 1) / 2:
         raise WrongValue(f"coupler must be more than half of ground and crank, {(g + 1) / 2:g}, so that the crank can turn "
                          f"round, not {c:g}", "geometry")
@@ -70,7 +70,7 @@ def hoecken(*, crank: float = 0.1, ground: float = 2.5, coupler: float = 3.25, s
     y = np.sqrt(c**2 - (g - x)**2)
     m = linkage({"A": (0, 0), "B": (1, 0), "C": (x, y), "D": (g, 0), "P": (2 * x - 1, 2 * y)},
                 {"ground": "AD", "crank": "AB", "coupler": "BCP", "rocker": "DC"},
-                lengths={"AB": 1, "AD": g, "BC": c, "CP": c, "BP": 2 * c, "DC": c}, scale=_check.number("crank", crank, above=0),
+                lengths={"AB": 1, "AD": g, "BC": c, "CP": c, "BP": 2 * c, "DC": c}, scale=checks.number("crank", crank, above=0),
                 mass=mass, gravity=gravity, name="hoecken")
     m.motor("drive", "A", speed=speed)
     return m

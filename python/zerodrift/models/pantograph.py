@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongValue
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
@@ -55,8 +55,8 @@ def pantograph(*, arm: float = 0.2, ratio: float = 2.0, size: float = 0.05, rate
     >>> bool(abs(sol["P.position"] - 3.0 * sol["Q.position"]).max() < 1e-12)
     True
     """
-    a, k = _check.number("arm", arm, above=0), _check.number("ratio", ratio, above=1)
-    if not 0 <= _check.number("size", size) < a / 3:
+    a, k = checks.number("arm", arm, above=0), checks.number("ratio", ratio, above=1)
+    if not 0 <= checks.number("size", size) < a / 3:
         raise WrongValue(f"size must be from 0 to less than a third of the arm, {a / 3:g}, not {size:g}", "geometry")
     Q = a * MIDDLE
     A = Q / 2 + np.sqrt(a**2 / (Q @ Q) - 1 / 4) * np.array([-Q[1], Q[0]])

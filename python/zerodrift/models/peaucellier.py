@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongValue
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
@@ -58,8 +58,8 @@ def peaucellier(*, arm: float = 0.25, side: float = 0.12, crank: float = 0.1, am
     >>> bool(np.ptp(y) > 0.3), bool(np.ptp(x) < 1e-12)
     (True, True)
     """
-    arm, side, crank = (_check.number(name, value, above=0) for name, value in (("arm", arm), ("side", side), ("crank", crank)))
-    amplitude = _check.number("amplitude", amplitude, least=0)
+    arm, side, crank = (checks.number(name, value, above=0) for name, value in (("arm", arm), ("side", side), ("crank", crank)))
+    amplitude = checks.number("amplitude", amplitude, least=0)
     near, far = 2 * crank * np.cos(min(amplitude, np.pi) / 2), 2 * crank
     if not (abs(arm - side) < near and far < arm + side):
         raise WrongValue(f"amplitude {amplitude:g} leads Q from {far:g} to {near:g} m from O, and arms of {arm:g} m with sides "

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .. import _check, inertia
+from .. import inertia
+from .._private import checks
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
 
@@ -51,10 +52,10 @@ def planetary_gear(*, sun: int = 40, planet: int = 20, planets: int = 3, module:
     >>> print(round(sol["ring.angular_velocity"][-1] * 60 / (2 * np.pi), 9))
     -250.0
     """
-    sun, planet, planets = (_check.count(name, value, least=1) for name, value in
+    sun, planet, planets = (checks.count(name, value, least=1) for name, value in
                             (("sun", sun), ("planet", planet), ("planets", planets)))
-    ring, density = sun + 2 * planet, _check.number("density", density, above=0)
-    radius = {name: _check.number("module", module, above=0) * teeth / 2
+    ring, density = sun + 2 * planet, checks.number("density", density, above=0)
+    radius = {name: checks.number("module", module, above=0) * teeth / 2
               for name, teeth in (("sun", sun), ("planet", planet), ("ring", ring))}
     arm = radius["sun"] + radius["planet"]
 
@@ -73,7 +74,7 @@ def planetary_gear(*, sun: int = 40, planet: int = 20, planets: int = 3, module:
         m.gear(f"sun-planet{i}", "sun axle", f"planet{i} axle", ratio=-sun / planet)
         m.gear(f"planet{i}-ring", f"planet{i} axle", "ring axle", ratio=planet / ring)
     m.torque("load", "ring", value=load)
-    carrier_speed = _check.number("carrier_speed", carrier_speed)
+    carrier_speed = checks.number("carrier_speed", carrier_speed)
     m.motor("drive", "carrier axle", speed=carrier_speed)
-    m.motor("sun drive", "sun axle", speed=_check.number("sun_speed", sun_speed) - carrier_speed)
+    m.motor("sun drive", "sun axle", speed=checks.number("sun_speed", sun_speed) - carrier_speed)
     return m

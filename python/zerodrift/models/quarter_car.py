@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .. import _check
+from .._private import checks
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
 from ._swing import swing
@@ -48,9 +48,9 @@ def quarter_car(*, body_mass: float = 2500.0, wheel_mass: float = 320.0, stiffne
     >>> bool(abs(sol["body guide.displacement"]).max() > 0.05)      # the excitation is near a resonance
     True
     """
-    masses = [_check.number(name, value, above=0) for name, value in (("body_mass", body_mass), ("wheel_mass", wheel_mass))]
-    k, k_tyre = _check.number("stiffness", stiffness, above=0), _check.number("tyre_stiffness", tyre_stiffness, above=0)
-    g = _check.number("gravity", gravity)
+    masses = [checks.number(name, value, above=0) for name, value in (("body_mass", body_mass), ("wheel_mass", wheel_mass))]
+    k, k_tyre = checks.number("stiffness", stiffness, above=0), checks.number("tyre_stiffness", tyre_stiffness, above=0)
+    g = checks.number("gravity", gravity)
     m = Mechanism("quarter_car", gravity=(0.0, -g))
     road = m.body("road", 1.0, at=(0, 0))
     wheel, body = m.body("wheel", masses[1], at=(0, 0.5)), m.body("body", masses[0], at=(0, 1.2))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongValue
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
@@ -56,16 +56,16 @@ def quick_return(*, ground: float = 0.025, crank: float = 0.010, lever: float = 
     >>> bool((sol["guide.speed"] < 0).mean() < 0.4)       # it returns in less than two fifths of the time
     True
     """
-    g, a, b, c = (_check.number(name, value, above=0) for name, value in
+    g, a, b, c = (checks.number(name, value, above=0) for name, value in
                   (("ground", ground), ("crank", crank), ("lever", lever), ("rod", rod)))
-    height = _check.number("height", height)
+    height = checks.number("height", height)
     lowest = b * np.sqrt(1 - (a / g)**2) if a < g else -b
     reach = max(abs(b - height), abs(lowest - height))
     if a == g or not reach < c:
         raise WrongValue(f"rod must be longer than {reach:g} m, by which the lever's end goes aside from the ram's line at a "
                          f"height of {height:g} m, and crank other than ground, {g:g} m; rod is {c:g} m, and crank {a:g} m",
                          "geometry")
-    m = Mechanism("quick_return", gravity=(0.0, -_check.number("gravity", gravity)))
+    m = Mechanism("quick_return", gravity=(0.0, -checks.number("gravity", gravity)))
     pin = np.array([a, g])
     end = b * pin / np.hypot(*pin)
     ram_at = (end[0] + np.sqrt(c**2 - (end[1] - height)**2), height)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongValue
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
@@ -60,16 +60,16 @@ def scissor_lift(stages: int = 3, *, arm: float = 1.0, angle: float = 0.6, ampli
     >>> bool(abs(sol["platform.position.y"] - height).max() < 1e-10)
     True
     """
-    n, L = _check.count("stages", stages, least=1), _check.number("arm", arm, above=0)
-    angle, amplitude = _check.number("angle", angle), _check.number("amplitude", amplitude)
+    n, L = checks.count("stages", stages, least=1), checks.number("arm", arm, above=0)
+    angle, amplitude = checks.number("angle", angle), checks.number("amplitude", amplitude)
     w, h = L * np.cos(angle), L * np.sin(angle)
     if not (0 < angle < np.pi / 2 and abs(amplitude) < min(w, L - w)):
         raise WrongValue(f"amplitude must be less than {max(0.0, min(w, L - w)):g} m with arms of {L:g} m at an angle of "
                          f"{angle:g}, which must be between 0 and a right angle, not {amplitude:g}", "geometry")
-    m = Mechanism("scissor_lift", gravity=(0.0, -_check.number("gravity", gravity)))
+    m = Mechanism("scissor_lift", gravity=(0.0, -checks.number("gravity", gravity)))
     rises = [m.link(f"rise{i}", (0, i * h), (w, (i + 1) * h), mass) for i in range(n)]
     falls = [m.link(f"fall{i}", (0, (i + 1) * h), (w, i * h), mass) for i in range(n)]
-    platform, load = _check.number("platform", platform, least=0), _check.number("load", load, least=0)
+    platform, load = checks.number("platform", platform, least=0), checks.number("load", load, least=0)
     deck = m.body("platform", platform, platform * w**2 / 12, at=(0, n * h), com=(w / 2, 0))
     m.particle("load", load, at=deck.point((w / 2, 0)))
     m.revolute("foot", m.ground, rises[0].start)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongValue
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
@@ -53,10 +53,10 @@ def slider_crank(*, crank: float = 0.5, rod: float = 1.0, crank_inertia: float =
     >>> bool(abs(sol["slider.position.y"]).max() < 1e-12)
     True
     """
-    a, b = _check.number("crank", crank, above=0), _check.number("rod", rod, above=0)
+    a, b = checks.number("crank", crank, above=0), checks.number("rod", rod, above=0)
     if not b > a:
         raise WrongValue(f"rod must be longer than the crank of {a:g} m, not {b:g}", "geometry")
-    rest_length = _check.number("rest_length", rest_length, least=0)
+    rest_length = checks.number("rest_length", rest_length, least=0)
     m = Mechanism("slider_crank")
     crank_body = m.body("crank", 0.0, crank_inertia, angle=angle)
     pin = crank_body.point((a, 0))

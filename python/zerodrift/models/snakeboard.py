@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongValue
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
@@ -53,7 +53,7 @@ def snakeboard(*, mass: float = 6.0, inertia: float = 0.016, rotor_inertia: floa
     >>> bool(abs(sol["board.position"][-1]).max() > 0.2), bool(abs(sol.velocity_violation).max() < 1e-12)
     (True, True)
     """
-    half, wheel_swing = _check.number("half", half, above=0), _check.number("wheel_swing", wheel_swing)
+    half, wheel_swing = checks.number("half", half, above=0), checks.number("wheel_swing", wheel_swing)
     if not abs(wheel_swing) < 1.5:
         raise WrongValue(f"wheel_swing must be between -1.5 and 1.5, as axles across the board block it, not {wheel_swing:g}",
                          "out-of-range")

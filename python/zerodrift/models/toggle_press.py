@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongValue
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
@@ -54,8 +54,8 @@ def toggle_press(*, link: float = 0.3, crank: float = 0.05, rod: float = 0.3, di
     >>> bool(sol["upper.angle"].min() > -np.pi / 2)       # it is never quite straight
     True
     """
-    a, r, c = (_check.number(name, value, above=0) for name, value in (("link", link), ("crank", crank), ("rod", rod)))
-    d = _check.number("distance", distance)
+    a, r, c = (checks.number(name, value, above=0) for name, value in (("link", link), ("crank", crank), ("rod", rod)))
+    d = checks.number("distance", distance)
     if not (r + c < d and np.hypot(d, a) + r < a + c):
         raise WrongValue(f"distance must be above crank and rod together, {r + c:g} m, so that the knee is not pushed "
                          f"through, and below {np.sqrt(max(0.0, (a + c - r)**2 - a**2)):g} m, so that the rod reaches, not {d:g}",
@@ -67,7 +67,7 @@ def toggle_press(*, link: float = 0.3, crank: float = 0.05, rod: float = 0.3, di
     towards = (B - head) / apart
     knee = head + along * towards + across * np.array([towards[1], -towards[0]])
     foot = np.array([0.0, knee[1] - np.sqrt(a**2 - knee[0]**2)])
-    m = Mechanism("toggle_press", gravity=(0.0, -_check.number("gravity", gravity)))
+    m = Mechanism("toggle_press", gravity=(0.0, -checks.number("gravity", gravity)))
     m.link("crank", (d, a), B, mass)
     m.link("rod", B, knee, mass)
     m.link("upper", head, knee, mass)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongValue
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
@@ -59,8 +59,8 @@ def watt(*, rocker: float = 0.5, coupler: float = 0.2, amplitude: float = 0.35, 
     >>> bool(np.ptp(y) > 0.3), bool(np.ptp(x) < 0.02 * np.ptp(y))
     (True, True)
     """
-    b, c = _check.number("rocker", rocker, above=0), _check.number("coupler", coupler, above=0)
-    amplitude = _check.number("amplitude", amplitude, least=0)
+    b, c = checks.number("rocker", rocker, above=0), checks.number("coupler", coupler, above=0)
+    amplitude = checks.number("amplitude", amplitude, least=0)
     # The left rocker's end is farthest from the right rocker's hinge at the upper end of its swing, and has to be in reach.
     up = min(amplitude, np.pi - np.arctan(c / (2 * b)))
     apart = np.hypot(2 * b - b * np.cos(up), c + b * np.sin(up))

@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .._writing import write_atomically
+from .._private.writing import write_atomically
 from ..errors import WrongValue
 from . import FOUR_BAR, OSCILLATOR
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from .._writing import write_atomically
+from .._private.writing import write_atomically
 from ..runs.simulate import simulate
 from . import FOUR_BAR, FOUR_BAR_REFERENCE, OSCILLATOR, claims, figures, run
 

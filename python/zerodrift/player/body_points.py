@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .._rotations import rotation_of
+from .._private.rotations import rotation_of
 from ..mechanisms.pictures.plane_shapes import sketches
 from ..mechanisms.pictures.space_shapes import space_sketches
 from ..systems.shapes import Shape

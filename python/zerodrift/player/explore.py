@@ -8,8 +8,8 @@ import secrets
 from collections.abc import Callable, Mapping
 from typing import Any, Unpack
 
-from .. import _check
-from .._types import ExploreOptions, SystemLike
+from .._private import checks
+from .._private.types import ExploreOptions, SystemLike
 from ..errors import MissingPackage, WrongType, WrongValue, ZerodriftError
 from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
@@ -72,7 +72,7 @@ class Exploration:
             if name not in self.values:
                 raise WrongValue(f"values must name parameters of this exploration, {', '.join(self.values)}, not {name!r}",
                                  "wrong-name")
-            self.values[name] = _check.number(name, value)
+            self.values[name] = checks.number(name, value)
         self._run()
         return self
 
@@ -185,15 +185,15 @@ def _ranges(parameters: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
     """The ranges, as pairs of increasing numbers."""
     if not isinstance(parameters, Mapping) or not parameters:
         raise WrongType("parameters must be a dict of ranges by name, such as {'rod.mass': (0.5, 2.0)}, not "
-                        f"{_check.shown(parameters)}")
+                        f"{checks.shown(parameters)}")
     found = {}
     for name, given in parameters.items():
         try:
             low, high = (float(each) for each in given)
         except (TypeError, ValueError):
-            raise WrongType(f"the range of {name!r} must be two numbers, not {_check.shown(given)}") from None
+            raise WrongType(f"the range of {name!r} must be two numbers, not {checks.shown(given)}") from None
         if not low < high < float("inf") or low == float("-inf"):
-            raise WrongValue(f"the range of {name!r} must increase and be finite, not {_check.shown(given)}", "not-increasing")
+            raise WrongValue(f"the range of {name!r} must increase and be finite, not {checks.shown(given)}", "not-increasing")
         found[name] = low, high
     return found
 

@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
-from .._gateway.mechanisms.blocks import BlockCore
+from .._private import checks
+from .._private.gateway.mechanisms.blocks import BlockCore
 from ..errors import WrongValue, ZerodriftError
 from ..export import parameters as _parameters
 from ..export import wasm
@@ -90,7 +90,7 @@ class LiveView(Page):
                 f'style="width:100%;max-width:960px;height:{HEIGHT}px;border:0"></iframe>')
 
     def __repr__(self) -> str:
-        sliders = _check.counted(len(self._scene["sliders"]), "slider")
+        sliders = checks.counted(len(self._scene["sliders"]), "slider")
         return f"<live view of {self._scene['name']}: {sliders}, {len(self.page) / 1000:.0f} kB>"
 
 
@@ -109,7 +109,7 @@ def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None 
     if not isinstance(system, MechanismSystem):
         raise WrongValue("a live view must be of a mechanism: the page simulates its block, and equations have none",
                          "not-available")
-    speed = 1.0 if speed is None else _check.number("speed", speed, above=0)
+    speed = 1.0 if speed is None else checks.number("speed", speed, above=0)
     sol = _motion(system, step, options)
     points = body_points(system, list(sol.p))
     inputs, limits = _given(system, sliders) if sliders is not None else (_inputs(system), {})

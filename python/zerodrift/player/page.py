@@ -8,7 +8,7 @@ import webbrowser
 from importlib import resources
 from pathlib import Path
 
-from .._writing import with_suffix, write_atomically
+from .._private.writing import with_suffix, write_atomically
 
 
 class Page:

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongValue
 from ..plot.dense_samples import dense
 from ..plot.drawing import is_upside_down, moments_of, paths_of
@@ -56,7 +56,7 @@ class Wanted:
 
     def __post_init__(self) -> None:
         if self.speed is not None:
-            _check.number("speed", self.speed, above=0)
+            checks.number("speed", self.speed, above=0)
 
 
 def scene(solutions: Sequence[Solution], labels: Sequence[str], wanted: Wanted) -> dict[str, Any]:

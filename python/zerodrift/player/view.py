@@ -11,8 +11,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from .. import _check
-from .._types import MeasureLike, Measures, Mechanism, Point
+from .._private import checks
+from .._private.types import MeasureLike, Measures, Mechanism, Point
 from ..errors import WrongType, WrongValue, ZerodriftError
 from ..runs.samples.solution import A_SOLUTION, Solution
 from ..systems.base import Makes
@@ -206,7 +206,7 @@ def view(*solutions: Solution | Mechanism, forces: bool | Sequence[Any] = False,
     if not solutions:
         raise WrongType("view needs at least one solution, as zd.simulate returns", "missing-argument")
     for sol in solutions:
-        _check.instance("each of solutions", sol, Solution, A_SOLUTION if not isinstance(sol, Makes) else
+        checks.instance("each of solutions", sol, Solution, A_SOLUTION if not isinstance(sol, Makes) else
                         f"{A_SOLUTION}, or with live=True a mechanism")
     if labels is None:
         labels = [sol.system.name if len(solutions) == 1 else f"{sol.system.name} {i}"     # type: ignore[union-attr]

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from .. import _check
-from .._gateway import Variable
+from .._private import checks
+from .._private.gateway import Variable
 from ..errors import WrongValue
 from ..runs.samples.columns import columns
 from ..runs.samples.solution import A_SOLUTION, Solution
@@ -45,7 +45,7 @@ def motion(sol: Solution, names: str | Sequence[str] | None = None, ax: Axes | N
     >>> ax.get_ylabel()
     'rad'
     """
-    sol = _with_samples_of_lines(_check.instance("sol", sol, Solution, A_SOLUTION), style)
+    sol = _with_samples_of_lines(checks.instance("sol", sol, Solution, A_SOLUTION), style)
     values, variables = signals(sol, names)
     ax = _style.axes(ax)
     units = _style.units(variables)
@@ -92,7 +92,7 @@ def measures(sol: Solution, names: Any, ax: Axes | None = None, **style: Any) ->
     >>> ax.get_ylabel()
     'N, rad'
     """
-    sol = _with_samples_of_lines(_check.instance("sol", sol, Solution, A_SOLUTION), style)
+    sol = _with_samples_of_lines(checks.instance("sol", sol, Solution, A_SOLUTION), style)
     found = columns(sol, names)
     ax = _style.axes(ax)
     variables = [variable for variable, _ in found]
@@ -137,7 +137,7 @@ def violation(sol: Solution, ax: Axes | None = None, *, positions: bool = True, 
     >>> zd.plot.violation(sol).get_yscale()
     'log'
     """
-    _check.instance("sol", sol, Solution, A_SOLUTION)
+    checks.instance("sol", sol, Solution, A_SOLUTION)
     constraints, mh = sol.system.constraints, sol.position_violation.shape[1]
     rates = [Variable(c.name, f"{c.unit}/s" if c.unit else "1/s") for c in constraints[:mh]] + list(constraints[mh:])
     lines = []
@@ -274,7 +274,7 @@ def error(sol: Solution, reference: Solution | Reference | Callable[[float], Any
 
 def _energies(sol: Solution) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Potential energy, energy input and energy violation of a solution that has them."""
-    _check.instance("sol", sol, Solution, A_SOLUTION)
+    checks.instance("sol", sol, Solution, A_SOLUTION)
     potential, put_in, violation = sol.potential_energy, sol.energy_input, sol.energy_violation
     if potential is None or put_in is None or violation is None:
         raise WrongValue(f"{sol.system.name} must declare a potential energy for its energy balance to be drawn", "not-available")

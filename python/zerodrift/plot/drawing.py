@@ -11,8 +11,8 @@ from matplotlib.animation import FuncAnimation
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
-from .. import _check
-from .._types import ArrayLike, SystemLike
+from .._private import checks
+from .._private.types import ArrayLike, SystemLike
 from ..errors import WrongType, WrongValue
 from ..runs.samples.solution import A_SOLUTION, Solution
 from ..studies.compare import nearest
@@ -86,10 +86,10 @@ def mechanism(system_or_solution: SystemLike | Solution, p: ArrayLike | None = N
     """
     given = system_of(system_or_solution, p)
     if not isinstance(given, Solution) and not callable(getattr(given, "points", None)):
-        raise WrongType(f"system_or_solution must be a system or a Solution, not {_check.shown(given)}")
+        raise WrongType(f"system_or_solution must be a system or a Solution, not {checks.shown(given)}")
     sol = dense(given) if isinstance(given, Solution) else None
     _check_asked(sol, p, t=t, ghosts=ghosts, forces=forces, path=path)
-    force_scale = None if force_scale is None else _check.number("force_scale", force_scale, above=0)
+    force_scale = None if force_scale is None else checks.number("force_scale", force_scale, above=0)
     system = given if sol is None else sol.system
     rows = _rows(sol, p, t, ghosts)
     positions = ([] if p is None and sol is not None else [system.p0 if p is None else p])
@@ -153,7 +153,7 @@ def path(sol: Solution, points: Any, ax: Axes | None = None, **style: Any) -> Ax
     >>> sol = zd.simulate(zd.models.jansen(), 1.0, step=0.005)
     >>> ax = zd.plot.path(sol, "F")
     """
-    sol = dense(_check.instance("sol", sol, Solution, A_SOLUTION))
+    sol = dense(checks.instance("sol", sol, Solution, A_SOLUTION))
     found = paths_of(sol, points)
     ax = drawing_axes(ax, 3 if any(places.shape[1] == 3 for places in found) else 2)
     for places in found:
@@ -197,9 +197,9 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
     >>> film = zd.plot.animate(zd.simulate(zd.models.jansen(), 1.0, step=0.01), fps=4, path="F")
     >>> page = film.to_jshtml()
     """
-    sol = dense(_check.instance("sol", sol, Solution, A_SOLUTION))
-    fps, speed = _check.number("fps", fps, above=0), _check.number("speed", speed, above=0)
-    force_scale = None if force_scale is None else _check.number("force_scale", force_scale, above=0)
+    sol = dense(checks.instance("sol", sol, Solution, A_SOLUTION))
+    fps, speed = checks.number("fps", fps, above=0), checks.number("speed", speed, above=0)
+    force_scale = None if force_scale is None else checks.number("force_scale", force_scale, above=0)
     frames = int((sol.t[-1] - sol.t[0]) * fps / speed) + 1
     times = sol.t[0] + np.arange(frames) * speed / fps
     rows = nearest(sol.t, times)
@@ -237,13 +237,13 @@ def _rows(sol: Solution | None, p: Any, t: float | None, ghosts: Any) -> np.ndar
     """Indices of the samples to draw: first the one in full colours (unless p is given), then the faint ones."""
     if sol is None:
         return np.zeros(0, dtype=int)
-    first = nearest(sol.t, np.array([sol.t[0] if t is None else _check.number("t", t)]))
+    first = nearest(sol.t, np.array([sol.t[0] if t is None else checks.number("t", t)]))
     if ghosts is None:
         ghosts = GHOSTS if p is None and t is None else 0
     if isinstance(ghosts, int | np.integer):
-        others = np.setdiff1d(_spread(sol, _check.count("ghosts", ghosts, least=0)), first)[:ghosts]
+        others = np.setdiff1d(_spread(sol, checks.count("ghosts", ghosts, least=0)), first)[:ghosts]
     else:
-        others = nearest(sol.t, _check.times("ghosts", ghosts, sol.t[0], sol.t[-1]))
+        others = nearest(sol.t, checks.times("ghosts", ghosts, sol.t[0], sol.t[-1]))
     return np.concatenate([first if p is None else first[:0], others])
 
 
@@ -269,7 +269,7 @@ def paths_of(sol: Any, points: Any) -> list[np.ndarray]:
     for point in several:
         name = point if isinstance(point, str) else getattr(point, "measured_name", None) or getattr(point, "name", None)
         if not isinstance(name, str):
-            raise WrongType(f"each of path must be a point or its name, such as 'F' or rod.end, not {_check.shown(point)}")
+            raise WrongType(f"each of path must be a point or its name, such as 'F' or rod.end, not {checks.shown(point)}")
         places = np.asarray(sol[name if name.endswith(".position") else f"{name}.position"])
         if places.ndim != 2:
             raise WrongValue(f"path {name!r} must be of a point, not of the scalar {name}.position", "wrong-measure")
@@ -299,7 +299,7 @@ def _moments(system: BaseSystem, positions: Any, sol: Solution | None, **asked: 
     """Shapes of each position; for a system in space without shapes, its points (k, n, 3)."""
     if isinstance(system, BaseSystem):
         motion = () if sol is None else sol.p[_spread(sol, WHOLE)]
-        known = system._sketches([_check.vector("p", p, system.nq) for p in positions], motion)
+        known = system._sketches([checks.vector("p", p, system.nq) for p in positions], motion)
         if known is not None:
             return known
     for name, value in asked.items():

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from .. import _check
-from .._types import ArrayLike
+from .._private import checks
+from .._private.types import ArrayLike
 from ..analysis.linearization_result import EIGENVALUE_ROUNDING, Linearization
 from ..analysis.retraction import onto
 from ..errors import WrongValue
@@ -51,15 +51,15 @@ def mode(lin: Linearization, index: int = 0, ax: Axes | None = None, *, amplitud
     >>> lin = zd.linearize(bar, zd.equilibrium(bar))
     >>> ax = zd.plot.mode(lin, 0)
     """
-    _check.instance("lin", lin, Linearization, "what zd.linearize returns")
+    checks.instance("lin", lin, Linearization, "what zd.linearize returns")
     count = len(lin.eigenvalues)
     if isinstance(index, bool) or not isinstance(index, int | np.integer) or not 0 <= index < count:
-        raise WrongValue(f"index must be that of one of {count} eigenvalues, 0 to {count - 1}, not {_check.shown(index)}",
+        raise WrongValue(f"index must be that of one of {count} eigenvalues, 0 to {count - 1}, not {checks.shown(index)}",
                          "out-of-range")
     reference = lin.system.points(lin.p)
     if reference is None:
         raise WrongValue(f"{lin.system.name} must have a drawing for its modes to be drawn, and has none", "not-available")
-    amplitude = _check.number("amplitude", amplitude, above=0)
+    amplitude = checks.number("amplitude", amplitude, above=0)
     positions = [p for p in mode_positions(lin, int(index), amplitude, PHASES) if np.abs(p - lin.p).max() > STILL * amplitude]
     ax = still_picture(lin.system, [lin.p, *positions], ax)
     look: dict[str, Any] = {"color": _style.COLOURS[1], "alpha": 0.6, "linewidth": 1.0, "zorder": 20} | style
@@ -114,8 +114,8 @@ def root_locus(lins: Sequence[Linearization], values: ArrayLike, ax: Axes | None
     >>> systems = [zd.systems.oscillator(stiffness=k) for k in (1.0, 2.0)]
     >>> ax = zd.plot.root_locus([zd.linearize(each, (0.0, [0.0], [0.0])) for each in systems], [1.0, 2.0])
     """
-    lins = [_check.instance("lins", each, Linearization, "a sequence of what zd.linearize returns") for each in lins]
-    values = _check.vector("values", values, len(lins))
+    lins = [checks.instance("lins", each, Linearization, "a sequence of what zd.linearize returns") for each in lins]
+    values = checks.vector("values", values, len(lins))
     ax = _style.axes(ax)
     points = np.concatenate([each.eigenvalues for each in lins]) if lins else np.zeros(0)
     colours = np.repeat(values, [len(each.eigenvalues) for each in lins])

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from .. import _check
-from .._gateway import Variable
+from .._private import checks
+from .._private.gateway import Variable
 from ..ensembles.result import Ensemble
 from ..errors import WrongValue
 from . import style as _style
@@ -60,9 +60,9 @@ def bands(ens: Ensemble, name: Any, quantiles: Sequence[float] = QUANTILES, ax: 
     if ens.t is None:
         raise WrongValue("bands are over times that all runs have, and these have their own: t_eval gives them the same",
                          "not-available")
-    levels = np.array([_check.number("quantiles", level, least=0) for level in quantiles])
+    levels = np.array([checks.number("quantiles", level, least=0) for level in quantiles])
     if not len(levels) or levels[-1] > 1 or (np.diff(levels) <= 0).any():
-        raise WrongValue(f"quantiles must increase, between 0 and 1, not {_check.shown(quantiles)}", "not-increasing")
+        raise WrongValue(f"quantiles must increase, between 0 and 1, not {checks.shown(quantiles)}", "not-increasing")
     some = np.isfinite(values).any(axis=0)
     found = np.full((len(levels), len(ens.t)), np.nan)
     found[:, some] = np.nanquantile(values[:, some], levels, axis=0)
@@ -187,7 +187,7 @@ def heat_map(ens: Ensemble, of: Any = None, ax: Axes | None = None, *, at: float
 
 def _output(ens: Any, name: Any) -> tuple[Any, Variable]:
     """A scalar output of all runs, and its name with its unit."""
-    _check.instance("ens", ens, Ensemble, AN_ENSEMBLE)
+    checks.instance("ens", ens, Ensemble, AN_ENSEMBLE)
     values, name = ens[name], getattr(name, "name", name)
     if (values.ndim if ens.t is not None else values[0].ndim + 1) != 2:
         raise WrongValue(f"{name} is a vector, and only one of its components can be drawn: {name + '.x'!r}", "wrong-measure")
@@ -196,15 +196,15 @@ def _output(ens: Any, name: Any) -> tuple[Any, Variable]:
 
 def _numbers(ens: Any, of: Any, at: float | None, style: dict[str, Any]) -> tuple[np.ndarray, str]:
     """Number of each run, NaN if missing, and its label, which is removed from the style."""
-    _check.instance("ens", ens, Ensemble, AN_ENSEMBLE)
+    checks.instance("ens", ens, Ensemble, AN_ENSEMBLE)
     label = style.pop("label", "")
     if isinstance(of, str) or hasattr(of, "name"):
         values, variable = _output(ens, of)
         found = _at(ens, values, at)
         return found, label or _style.labelled(variable) + (f" at t = {at:g} s" if at is not None else " at the end")
-    found = ens.values if of is None else _check.real("of must hold", of)
+    found = ens.values if of is None else checks.real("of must hold", of)
     if not isinstance(found, np.ndarray) or found.shape != (len(ens),):
-        given = f"what reduce returned, {_check.shown(ens.values)}," if of is None else f"of, {_check.shown(of)},"
+        given = f"what reduce returned, {checks.shown(ens.values)}," if of is None else f"of, {checks.shown(of)},"
         raise WrongValue(f"{given} must be a number for each of {len(ens)} runs; or name an output", "shape")
     return found.astype(float), label
 
@@ -213,14 +213,14 @@ def _at(ens: Any, values: Any, at: float | None) -> np.ndarray:
     """Output at a time common to all runs, or in the last sample of each completed run."""
     if at is not None:
         if ens.t is None or not (here := np.flatnonzero(np.isclose(ens.t, at, rtol=1e-9, atol=0))).size:
-            raise WrongValue(f"at must be one of the times that all runs have, not {_check.number('at', at):g}", "out-of-range")
+            raise WrongValue(f"at must be one of the times that all runs have, not {checks.number('at', at):g}", "out-of-range")
         return values[:, here[0]]
     last = [each[np.isfinite(each)][-1:] for each in values]
     return np.array([each[0] if each.size and not failed else np.nan for each, failed in zip(last, ens.failed, strict=True)])
 
 
 def _parameter(ens: Any, name: str) -> np.ndarray:
-    values = ens.parameters[_check.choice("parameter", name, ens.parameters)]
+    values = ens.parameters[checks.choice("parameter", name, ens.parameters)]
     if values.ndim != 1:
         raise WrongValue(f"parameter {name!r} has several entries in each run, and only scalars can be drawn", "wrong-measure")
     return values

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.lines import Line2D
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongValue
 from ..runs.arguments import methods
 from ..runs.arguments.methods import Projection
@@ -50,7 +50,7 @@ def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
     >>> ax.get_xlabel()
     'time [ms]'
     """
-    _check.instance("result", result, WorkPrecision, "what zd.work_precision returns")
+    checks.instance("result", result, WorkPrecision, "what zd.work_precision returns")
     ax = _style.axes(ax)
     ax.set(xscale="log", yscale="log", xlabel="time [ms]", ylabel="max |p - reference|")
     done = [row for row in result.rows if row.success and 0 < row.error < LARGEST_ERROR]
@@ -97,7 +97,7 @@ def stability_map(result: StabilityMap, axes: Sequence[Axes] | None = None) -> n
     >>> [ax.get_title() for ax in zd.plot.stability_map(found)]
     ['nothing', 'Baumgarte', 'projection', 'projection, energy']
     """
-    _check.instance("result", result, StabilityMap, "what zd.stability_map returns")
+    checks.instance("result", result, StabilityMap, "what zd.stability_map returns")
     given: Any = axes
     if given is None:
         count = len(result.rows)

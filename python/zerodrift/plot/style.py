@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.rcsetup import cycler
 
-from .. import _check
-from .._gateway import Variable
+from .._private import checks
+from .._private.gateway import Variable
 
 # Okabe and Ito's colours, told apart with any colour vision, dark ones first; the last four are Tol's wine, olive,
 # indigo and teal. There have to be as many as there are integrators.
@@ -43,7 +43,7 @@ def axes(ax: Axes | None) -> Axes:
 
 
 def given_axes(ax: Any, name: str = "ax") -> Axes:
-    return _check.instance(name, ax, Axes, "matplotlib's Axes, or left out for a new figure")
+    return checks.instance(name, ax, Axes, "matplotlib's Axes, or left out for a new figure")
 
 
 def styled(ax: Axes) -> Axes:

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from .. import _check
-from .._gateway import Variable
+from .._private import checks
+from .._private.gateway import Variable
 from ..errors import WrongIndex, WrongType, WrongValue
 from ..mechanisms.elements.measures import name_of
 from ..tracing.trace_result import Trace
@@ -57,8 +57,8 @@ def trace(traced: Trace, names: Any, ax: Axes | None = None, *, degrees: bool = 
     >>> ax.get_xlabel()
     'crank.angle [°]'
     """
-    _check.instance("traced", traced, Trace, A_TRACE)
-    _check.instance("degrees", degrees, bool, "True or False")
+    checks.instance("traced", traced, Trace, A_TRACE)
+    checks.instance("degrees", degrees, bool, "True or False")
     units, ax = [], _style.axes(ax)
     several = [names] if isinstance(names, str) or not isinstance(names, Sequence) else list(names)
     for name in several:
@@ -112,10 +112,10 @@ def positions(traced: Trace, at: Any = None, ax: Axes | None = None, *, names: b
     >>> turn = zd.trace(zd.models.jansen(), "crank.angle")
     >>> ax = zd.plot.positions(turn, path="F")
     """
-    _check.instance("traced", traced, Trace, A_TRACE)
+    checks.instance("traced", traced, Trace, A_TRACE)
     chosen = np.linspace(0, len(traced), OTHERS + 1, endpoint=False).astype(int) if at is None else _places(at, len(traced))
     picture = Picture(drawing_axes(ax, 2), traced.system._sketches([traced.p[place] for place in chosen]),
-                      Extras(_check.instance("names", names, bool, "True or False"), paths_of(traced, path)))
+                      Extras(checks.instance("names", names, bool, "True or False"), paths_of(traced, path)))
     picture.faintly(range(1, len(chosen)))
     picture.show(0)
     return picture.ax
@@ -123,11 +123,11 @@ def positions(traced: Trace, at: Any = None, ax: Axes | None = None, *, names: b
 
 def _places(at: Any, count: int) -> np.ndarray:
     """Numbers of positions."""
-    places = np.atleast_1d(_check.real("at must hold", at))
+    places = np.atleast_1d(checks.real("at must hold", at))
     if places.dtype.kind not in "iu" or places.ndim != 1 or not places.size:
-        raise WrongType(f"at must be numbers of positions, not {_check.shown(at)}")
+        raise WrongType(f"at must be numbers of positions, not {checks.shown(at)}")
     if places.min() < -count or places.max() >= count:
-        raise WrongIndex(f"at must be numbers of {count} positions, not {_check.shown(at)}")
+        raise WrongIndex(f"at must be numbers of {count} positions, not {checks.shown(at)}")
     return places
 
 

@@ -6,8 +6,8 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Any, Literal, Unpack
 
-from .. import _check, _gateway
-from .._types import ArrayLike, Events, Inputs, Measures, PathLike, SimulateSettings, StateLike, SystemLike
+from .._private import checks, gateway
+from .._private.types import ArrayLike, Events, Inputs, Measures, PathLike, SimulateSettings, StateLike, SystemLike
 from .arguments.inputs import Speeds
 from .arguments.settings import known, with_names
 from .open.beginning import prepared
@@ -26,7 +26,7 @@ def _read(step: Any, t_eval: Any, *, inputs: Inputs | None = None, hold: bool = 
           progress: bool | Callable[[float], object] = False, on_failure: Literal["raise", "return"] = "raise",
           **settings: Any) -> tuple[Any, ...]:
     """Settings of `simulate`: those of steps and methods, and its own, of which controllers and the last are checked."""
-    _check.choice("on_failure", on_failure, ("raise", "return"))
+    checks.choice("on_failure", on_failure, ("raise", "return"))
     given = known("simulate", step, t_eval, **settings)
     return given, inputs, Speeds(hold, ramp), controls(control), save_to, progress, on_failure
 
@@ -209,8 +209,8 @@ def simulate(
     array([0.1287, 0.6498, 1.4803, 2.0013])
     """
     given, inputs, speeds, of, save_to, progress, on_failure = _read(step, t_eval, **settings)
-    ready = prepared(system, _check.span(t_span), p0, v0, events, outputs, save_to, given, inputs=inputs, speeds=speeds)
-    with recording.locked(ready.path), Keyboard(*_gateway.CALLBACK_CODE, _show.__code__, called.__code__) as keyboard:
+    ready = prepared(system, checks.span(t_span), p0, v0, events, outputs, save_to, given, inputs=inputs, speeds=speeds)
+    with recording.locked(ready.path), Keyboard(*gateway.CALLBACK_CODE, _show.__code__, called.__code__) as keyboard:
         controlled = Run.of(ready, of) if of or inputs else None
         run = controlled._core if controlled else ready.created()
         record = ready.record(run)
@@ -222,32 +222,32 @@ def simulate(
     return finished(solution, run, results, outcome, on_failure, keyboard)
 
 
-def _drive(run: _gateway.Run, record: _gateway.Record, progress: Any, keyboard: Keyboard, controlled: Run | None) -> Outcome:
+def _drive(run: gateway.Run, record: gateway.Record, progress: Any, keyboard: Keyboard, controlled: Run | None) -> Outcome:
     """Run the core in slices of time, and to the instants of controllers, until it ends, fails or is interrupted."""
     show, close = progress_of(progress)
-    start, status, error = time.perf_counter(), _gateway.PAUSED, None
+    start, status, error = time.perf_counter(), gateway.PAUSED, None
     try:
-        while status in (_gateway.PAUSED, _gateway.FULL):
+        while status in (gateway.PAUSED, gateway.FULL):
             if keyboard.pressed:
                 raise KeyboardInterrupt
-            if controlled and status == _gateway.PAUSED:
+            if controlled and status == gateway.PAUSED:
                 controlled._control()
-            if status == _gateway.FULL:
+            if status == gateway.FULL:
                 recording.check_memory(record.next_rows, record.row_bytes, stacklevel=4)
                 record.grow()
             status = run.advance(record, SLICE)
             record.keep()
             if controlled:
                 controlled._note_jump()
-            if controlled and status == _gateway.DONE and controlled._goes_on():
-                status = _gateway.PAUSED
+            if controlled and status == gateway.DONE and controlled._goes_on():
+                status = gateway.PAUSED
             _show(show, run.progress)
     except BaseException as caught:
-        status, error = _gateway.INTERRUPTED, caught
+        status, error = gateway.INTERRUPTED, caught
     finally:
         close()
-    if status == _gateway.CALLBACK and not isinstance(run.error(status), Exception):     # Ctrl-C, SystemExit and the like
-        status, error = _gateway.INTERRUPTED, run.error(status)
+    if status == gateway.CALLBACK and not isinstance(run.error(status), Exception):     # Ctrl-C, SystemExit and the like
+        status, error = gateway.INTERRUPTED, run.error(status)
     return Outcome(status, time.perf_counter() - start, error)
 
 
@@ -256,5 +256,5 @@ def _show(show: Callable[[float], None], part: float) -> None:
     try:
         show(part)
     except BaseException as error:
-        _check.tell(error, f"in progress, called with {part:g}")
+        checks.tell(error, f"in progress, called with {part:g}")
         raise

@@ -7,7 +7,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from .. import _gateway
+from .._private import gateway
 from ..errors import WrongValue
 from ..runs.arguments import methods, settings
 from ..runs.open.diagnosis import instability, unwarned
@@ -119,7 +119,7 @@ class Bench:
         """Compile the functions that runs with this setting need, before threads use them."""
         self._core(self._plan(setting))
 
-    def rows(self, combinations: Sequence[Setting], stop: _gateway.Stop | None = None) -> list[Row]:
+    def rows(self, combinations: Sequence[Setting], stop: gateway.Stop | None = None) -> list[Row]:
         """Entries for runs with fixed steps, many in one call of the core; empty if stopped."""
         return self._rows(combinations, self._outcomes(combinations, stop), stop)
 
@@ -136,7 +136,7 @@ class Bench:
         """Entries of finished runs, whose errors are computed in threads."""
         parts, found = min(len(combinations), PARTS * processors()), {}
 
-        def look(part: int, stop: _gateway.Stop | None) -> None:
+        def look(part: int, stop: gateway.Stop | None) -> None:
             found[part] = self._rows(combinations[part::parts], outcomes[part::parts], stop)
 
         side_by_side(look, range(parts), in_threads=not self.needs_python)
@@ -155,7 +155,7 @@ class Bench:
         exact = states_of(self._reference, times, self.system.nq)[:, :self.system.nq]
         return row._replace(error=max(row.error, _largest(self.run(row.setting, t_eval=times).p - exact)))
 
-    def _rows(self, combinations: Sequence[Setting], outcomes: Sequence[Outcome], stop: _gateway.Stop | None) -> list[Row]:
+    def _rows(self, combinations: Sequence[Setting], outcomes: Sequence[Outcome], stop: gateway.Stop | None) -> list[Row]:
         """Entries of finished runs; successful runs are repeated with output at the times of the reference."""
         done = [place for place, outcome in enumerate(outcomes) if outcome.success]
         again = self._outcomes([combinations[place] for place in done], stop, t_eval=self._times)
@@ -178,27 +178,27 @@ class Bench:
     def _run(self, setting: Setting, **saved: Any) -> Outcome:
         solution = simulate(self.system, self.span, *self.start, **(setting.settings | saved), closed_form=self.closed_form,
                             on_failure="return")
-        if solution.status == _gateway.INTERRUPTED:
+        if solution.status == gateway.INTERRUPTED:
             raise KeyboardInterrupt
         return _outcome(solution)
 
     # ---- many in one call of the core ----
 
-    def _outcomes(self, combinations: Sequence[Setting], stop: _gateway.Stop | None = None, **saved: Any) -> list[Outcome]:
+    def _outcomes(self, combinations: Sequence[Setting], stop: gateway.Stop | None = None, **saved: Any) -> list[Outcome]:
         """Results of runs, bitwise those of individual runs; empty if stopped."""
         if self.needs_python:
             return [self.run(setting, **saved) for setting in combinations]
         plans = [self._plan(setting, **saved) for setting in combinations]
-        cores: dict[_gateway.CoreSystem, list[int]] = {}
+        cores: dict[gateway.CoreSystem, list[int]] = {}
         for place, plan in enumerate(plans):
             cores.setdefault(self._core(plan), []).append(place)
         found: dict[int, Outcome] = {}
         for core, places in cores.items():
             made = self._made(core, [plans[place] for place in places], stop)
-            if (made.status == _gateway.PAUSED).any():
+            if (made.status == gateway.PAUSED).any():
                 return []
             for run, place in enumerate(places):
-                if made.way[run] == _gateway.NOT_BEGUN:     # an error says why, as of any run
+                if made.way[run] == gateway.NOT_BEGUN:     # an error says why, as of any run
                     found[place] = self._run(combinations[place], **saved)
                 else:
                     found[place] = _outcome_of(core, plans[place], made, run)
@@ -207,15 +207,15 @@ class Bench:
     def _plan(self, setting: Setting, t_eval: Any = None) -> settings.CheckedSettings:
         return settings.plan(self.system, self.span, settings.Arguments(t_eval, closed_form=self.closed_form, **setting.settings))
 
-    def _core(self, plan: settings.CheckedSettings) -> _gateway.CoreSystem:
+    def _core(self, plan: settings.CheckedSettings) -> gateway.CoreSystem:
         return closed_form_core_of(self.system, plan.settings["vector"], plan.core_settings)
 
-    def _made(self, core: _gateway.CoreSystem, plans: Sequence[settings.CheckedSettings],
-              stop: _gateway.Stop | None) -> _gateway.BatchResults:
+    def _made(self, core: gateway.CoreSystem, plans: Sequence[settings.CheckedSettings],
+              stop: gateway.Stop | None) -> gateway.BatchResults:
         each, rows = [plan.core_settings for plan in plans], max(plan.rows or 0 for plan in plans)
         p0, v0 = (np.tile(x, (len(plans), 1)) for x in self.system._state_or_start(*self.start, t=self.span[0]))
         wanted = ("p",) if "t_eval" in plans[0].settings else ()
-        return _gateway.run_batch(NumberTables(core, None, 0, p0, v0, {}), each, len(plans), rows, wanted, stop=stop)
+        return gateway.run_batch(NumberTables(core, None, 0, p0, v0, {}), each, len(plans), rows, wanted, stop=stop)
 
 
 def _seconds_of(outcomes: Sequence[Outcome]) -> float:
@@ -229,9 +229,9 @@ def _outcome(solution: Solution) -> Outcome:
         map(_largest, (solution.position_violation, solution.velocity_violation, solution.energy_violation))))
 
 
-def _outcome_of(core: _gateway.CoreSystem, plan: settings.CheckedSettings, made: _gateway.BatchResults, run: int) -> Outcome:
+def _outcome_of(core: gateway.CoreSystem, plan: settings.CheckedSettings, made: gateway.BatchResults, run: int) -> Outcome:
     """Outcome of a run in a batch."""
-    rows, is_done = int(made.samples[run]), bool(made.status[run] == _gateway.DONE)
+    rows, is_done = int(made.samples[run]), bool(made.status[run] == gateway.DONE)
     stats = dict(zip(made.statistics.dtype.names, made.statistics[run].item(), strict=True))
     measured = {name: float(values[run]) for name, values in made.measured.items()}
     energy = float(made.energy_error[run]) if core.has_energy and rows else np.nan

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
-from .._types import ArrayLike, Bindings
+from .._private import checks
+from .._private.types import ArrayLike, Bindings
 from ..errors import WrongValue
 from ..runs.samples.solution import Solution
 from .precise_values import EventTimes, Quantity, Runs, Samples, located, value_of
@@ -175,7 +175,7 @@ class Reference:
                              "zd.reference(..., precision='double-double'), as it was computed, not unpickled")
         if t is None:
             return self._runs
-        times = np.atleast_1d(_check.times("t", t, self.solution.t[0], self.solution.t[-1]))
+        times = np.atleast_1d(checks.times("t", t, self.solution.t[0], self.solution.t[-1]))
         if not times.size:
             raise WrongValue("t must hold at least one time", "shape")
         return self._runs.at(times)

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
-from .._types import ArrayLike, SystemLike
+from .._private import checks
+from .._private.types import ArrayLike, SystemLike
 from ..analysis.comparison import Compared, derivatives_by_parameters, derivatives_of_accelerations
 from ..errors import ZerodriftError
 from ..runs.arguments.methods import Projection
@@ -83,10 +83,10 @@ def check(system: SystemLike, p: ArrayLike | None = None, v: ArrayLike | None = 
     """
     system = system_of(system, p, v)
     p, v = system._state_or_start(p, v, "p", "v", t)
-    t, states = _check.number("t", t), 0
+    t, states = checks.number("t", t), 0
     problems: dict[str, str] = {}
     names: dict[str, bool] = {}
-    samples = _check.count("samples", samples, least=0)
+    samples = checks.count("samples", samples, least=0)
     for p_now, v_now in [(p, v), *_samples(system, p, v, t, samples, seed)]:
         states += 1
         for compare in COMPARISONS:

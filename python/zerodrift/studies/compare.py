@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
-from .._gateway import Variable
+from .._private import checks
+from .._private.gateway import Variable
 from ..errors import WrongType, WrongValue
 from ..runs.samples.solution import A_SOLUTION, Solution
 from .reference import Reference
@@ -45,14 +45,14 @@ def signals(solution: Solution, names: str | Sequence[str] | None = None) -> tup
     >>> values.shape, variables[0].unit
     ((11, 1), 'm/s')
     """
-    system = _check.instance("sol", solution, Solution, A_SOLUTION).system
+    system = checks.instance("sol", solution, Solution, A_SOLUTION).system
     variables = (*system.coordinates, *system.velocities)
     known = [variable.name for variable in variables]
     if names is None:
         names = known[:len(system.coordinates)]
     names = [names] if isinstance(names, str) else names
-    _check.instance("names", names, Sequence, "names of coordinates and velocities")
-    columns = [known.index(_check.choice("names", name, known)) for name in names]
+    checks.instance("names", names, Sequence, "names of coordinates and velocities")
+    columns = [known.index(checks.choice("names", name, known)) for name in names]
     return _states(solution)[:, columns], tuple(variables[column] for column in columns)
 
 
@@ -105,7 +105,7 @@ def states_of(reference: Solution | Reference | Callable[[float], Any], times: n
     if isinstance(reference, Solution):
         return _states(reference)[_rows_at(reference.t, times)]
     if not callable(reference):
-        raise WrongType(f"reference must be a Reference, a Solution or a callable t -> p, not {_check.shown(reference)}")
+        raise WrongType(f"reference must be a Reference, a Solution or a callable t -> p, not {checks.shown(reference)}")
     return _evaluated(reference, times, nq)
 
 
@@ -129,7 +129,7 @@ def _evaluated(reference: Callable[[float], Any], times: np.ndarray, size: int) 
     exact = np.empty((len(times), size))
     for row, t in zip(exact, times, strict=True):
         value = _say_where(reference, float(t))
-        value = np.ravel(_check.real("reference(t) must return", value, f" (at t = {t:g})", objects=True))
+        value = np.ravel(checks.real("reference(t) must return", value, f" (at t = {t:g})", objects=True))
         if value.shape != (size,):
             raise WrongValue(f"reference(t) must return p of shape ({size},), not {value.shape}", "shape")
         row[:] = value
@@ -141,7 +141,7 @@ def _say_where(reference: Callable[[float], Any], t: float) -> Any:
     try:
         return reference(t)
     except BaseException as error:
-        _check.tell(error, f"in reference, called at t = {t:g}")
+        checks.tell(error, f"in reference, called at t = {t:g}")
         raise
 
 

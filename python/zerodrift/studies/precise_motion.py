@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._gateway.compiled.precise import Precise
+from .._private.gateway.compiled.precise import Precise
 from ..errors import Diverged, StepFailed, of_code
 from . import double_double as dd
 

@@ -14,9 +14,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .. import _check
-from .._gateway import known_events
-from .._gateway.known_events import Reading
+from .._private import checks
+from .._private.gateway import known_events
+from .._private.gateway.known_events import Reading
 from ..errors import UnreachableTolerance, WrongType, WrongValue
 from ..runs.arguments.events import Event
 from ..runs.samples.solution import Solution
@@ -167,7 +167,7 @@ def value_of(what: str, given: Any, system: BaseSystem, of: Mapping[str, Any]) -
     name = getattr(given, "name", given)
     if not isinstance(name, str):
         raise WrongType(f"{what} must be a measure, the name of one, a coordinate, a velocity or a SymPy expression, not "
-                        f"{_check.shown(given)}")
+                        f"{checks.shown(given)}")
     return _reader(what, system._reading(name, what), system)
 
 
@@ -214,5 +214,5 @@ def located(runs: Runs, solution: Solution, given: Any) -> EventTimes:
     times, p, v = (each[0] for each in (run.t_events, run.p_events, run.v_events) if each)
     if not len(times):
         return EventTimes(times, times, 0.0, p, p, v, v)
-    level = Decimal(_check.number("value of events", event.value))
+    level = Decimal(checks.number("value of events", event.value))
     return runs.events(lambda t, p, v: value(t, p, v) - level, times)

@@ -6,9 +6,9 @@ import contextlib
 import math
 from typing import Any
 
-from .. import _check
-from .._gateway.compiled.precise import Precise
-from .._types import ArrayLike, Formulation, StabilizationName, SystemLike
+from .._private import checks
+from .._private.gateway.compiled.precise import Precise
+from .._private.types import ArrayLike, Formulation, StabilizationName, SystemLike
 from ..errors import UnreachableTolerance, WrongValue, ZerodriftError
 from ..runs.arguments import methods, settings
 from ..systems.base import BaseSystem, system_of
@@ -120,11 +120,11 @@ def reference(
     >>> Fraction(ref.p[0, 0]) + Fraction(ref.p_low[0, 0]) == Fraction(0.1)
     True
     """
-    wanted = None if error is None else _check.number("error", error, above=0)
+    wanted = None if error is None else checks.number("error", error, above=0)
     system = system_of(system, p0, v0)
     pairs = _pairs(system, formulations)
     bounds = {"first_step": first_step, "max_step": max_step, "max_move": max_move}
-    motion = Motion(system, _check.span(t_span), p0, v0, t_eval, stabilization, pairs[0][0], bounds)
+    motion = Motion(system, checks.span(t_span), p0, v0, t_eval, stabilization, pairs[0][0], bounds)
     functions = _functions(system, precision)
     if functions is None or (precision is None and wanted is not None and wanted >= SPACING * motion.size):
         try:
@@ -144,7 +144,7 @@ def reference(
 def _functions(system: BaseSystem, precision: str | None) -> Precise | None:
     """Functions in double-double arithmetic, if they may be used; ValueError where they are requested and there are none."""
     if precision is not None:
-        _check.choice("precision", precision, PRECISIONS)
+        checks.choice("precision", precision, PRECISIONS)
     functions = functions_of(system, precision)
     if functions is None and precision == PRECISIONS[1]:
         raise WrongValue(f"precision must be 'double', as {system.name} has no functions in double-double arithmetic: built-in "

@@ -14,8 +14,8 @@ import dataclasses
 
 import numpy as np
 
-from .. import _gateway
-from .._gateway.compiled.precise import Precise
+from .._private import gateway
+from .._private.gateway.compiled.precise import Precise
 from ..errors import ZerodriftError, sentence
 from ..systems.base import BaseSystem
 from . import double_double as dd
@@ -25,7 +25,7 @@ from .precise_values import Runs, bound
 from .reference_runs import EPS, Difference, Motion
 
 PRECISIONS = ("double", "double-double")
-VECTOR = "avx2" if _gateway.PROCESSOR_UNIT else "baseline"      # same bits, but faster with fma
+VECTOR = "avx2" if gateway.PROCESSOR_UNIT else "baseline"      # same bits, but faster with fma
 METHOD = "taylor, order {}"
 FINEST, COARSEST = 1e-30, 1e-18     # tolerance of the motion, relative to its size
 MARGIN = 1000           # of the wanted error over the tolerance, times what the motion makes of rounding

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .. import _gateway
+from .._private import gateway
 from ..errors import ZerodriftError
 from ..runs.arguments import methods, settings
 from ..runs.open.diagnosis import unwarned
@@ -42,9 +42,9 @@ class Perturbed(BaseSystem):
     def __init__(self, system: BaseSystem, seed: int, size: float = EPS) -> None:
         self.name, self.parameters, self.p0, self.v0 = system.name, system.parameters, None, None
         self.coordinates, self.velocities, self.constraints = system.coordinates, system.velocities, system.constraints
-        self._core, self._system = _gateway.perturbed(core_of(system), size, seed), system
+        self._core, self._system = gateway.perturbed(core_of(system), size, seed), system
 
-    def _with_series(self, core: Any, vector: str = "baseline") -> _gateway.CoreSystem:
+    def _with_series(self, core: Any, vector: str = "baseline") -> gateway.CoreSystem:
         return self._system._with_series_of_perturbed(core, vector)
 
     def shifted(self, x: np.ndarray, seed: int) -> np.ndarray:
@@ -120,7 +120,7 @@ class Motion:
 
     def run_side_by_side(self, ways: Sequence[Way], steps: int) -> None:
         """Make the runs that `difference` will need in advance, in threads, unless they call Python functions."""
-        def make(asked: tuple[Way, int], stop: _gateway.Stop | None) -> None:
+        def make(asked: tuple[Way, int], stop: gateway.Stop | None) -> None:
             try:
                 self._made_before[asked] = self._run(*asked, stop)
             except Exception as error:      # raised by `run`
@@ -131,7 +131,7 @@ class Motion:
             with unwarned():        # around all threads, which share the filters of warnings
                 side_by_side(make, [(way, math.gcd(steps, way.steps)) for way in ways], in_threads=True)
 
-    def _run(self, way: Way, rows: int | None, stop: _gateway.Stop | None = None) -> Solution | None:
+    def _run(self, way: Way, rows: int | None, stop: gateway.Stop | None = None) -> Solution | None:
         def look(part: float) -> None:
             if stop and stop():
                 raise KeyboardInterrupt

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check, _gateway
-from .._types import ArrayLike, SystemLike
+from .._private import checks, gateway
+from .._private.types import ArrayLike, SystemLike
 from ..errors import Interrupted, WrongValue
 from ..runs.arguments import methods, settings
 from ..runs.open.keyboard import progress_of
@@ -68,7 +68,7 @@ class StabilityMap:
         return self._column(way, "error").astype(float)
 
     def _column(self, way: str, name: str) -> np.ndarray:
-        rows = self.rows[_check.choice("way", way, self.rows)]
+        rows = self.rows[checks.choice("way", way, self.rows)]
         return np.array([[getattr(row, name) for row in line] for line in rows])
 
     def __repr__(self) -> str:
@@ -140,13 +140,13 @@ def stability_map(
     >>> found.survived("Baumgarte").tolist()
     [[True, True], [False, False]]
     """
-    span = _check.span(t_span)
-    values = np.array([_check.number("values", value) for value in values])
+    span = checks.span(t_span)
+    values = np.array([checks.number("values", value) for value in values])
     if not values.size:
         raise WrongValue("values needs at least one entry", "missing-argument")
     benches = _benches(system, span, p0, v0, values, reference)
     steps = default_steps(benches[0].system, span, p0, v0) if steps is None else steps
-    steps = np.unique([_check.number("steps", step, above=0, code="step-size") for step in steps])
+    steps = np.unique([checks.number("steps", step, above=0, code="step-size") for step in steps])
     if not steps.size:
         raise WrongValue("steps needs at least one entry", "missing-argument")
     combinations = {name: [_settings(name, way(value) if callable(way) else way, steps) for value in values]
@@ -178,7 +178,7 @@ def _benches(system: Any, span: tuple[float, float], p0: Any, v0: Any, values: n
 
 def _settings(name: str, options: Mapping[str, Any], steps: np.ndarray) -> tuple[Setting, ...]:
     for option in options:
-        _check.choice(f"an option of the way {name!r}", option, OPTIONS)
+        checks.choice(f"an option of the way {name!r}", option, OPTIONS)
     chosen = OPTIONS | dict(options)
     corrections = settings.stabilization(chosen["stabilization"]), settings.energy(chosen["energy"])
     return tuple(Setting(chosen["formulation"], chosen["integrator"], float(step), None, *corrections) for step in steps)
@@ -203,7 +203,7 @@ class _Cells:
         finally:
             close()
 
-    def _measure(self, key: tuple[Bench, tuple[Setting, ...]], stop: _gateway.Stop | None) -> None:
+    def _measure(self, key: tuple[Bench, tuple[Setting, ...]], stop: gateway.Stop | None) -> None:
         bench, line = key
         if rows := bench.rows(line, stop):
             self._rows[key] = tuple(rows)

@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from .. import _check
-from .._types import ArrayLike, Formulation, Integrator, SystemLike
+from .._private import checks
+from .._private.types import ArrayLike, Formulation, Integrator, SystemLike
 from ..errors import Interrupted, UnreachableTolerance, WrongValue
 from ..runs.arguments.settings import FINEST_RTOL
 from ..systems.base import system_of
@@ -108,7 +108,7 @@ def tune(
     >>> sol = zd.simulate(bar, 1.0, **tuning.settings)
     """
     system = system_of(system, p0, v0)
-    span, rounds = _check.span(t_span), _check.count("rounds", rounds)
+    span, rounds = checks.span(t_span), checks.count("rounds", rounds)
     goal = _goal(error, budget)
     reference = certified.reference(system, span, p0, v0, error=None)
     goal.check(reference.error)
@@ -177,8 +177,8 @@ def _goal(error: float | None, budget: float | None) -> _ReachError | _KeepBudge
     if (error is None) == (budget is None):
         raise WrongValue("either error or budget must be given, and not both", "conflicting-arguments")
     if budget is None:
-        return _ReachError(_check.number("error", error, above=0))
-    return _KeepBudget(_check.number("budget", budget, above=0))
+        return _ReachError(checks.number("error", error, above=0))
+    return _KeepBudget(checks.number("budget", budget, above=0))
 
 
 # ---- the search ----

@@ -13,9 +13,9 @@ from typing import Any, Literal
 
 import numpy as np
 
-from .. import _check
-from .._types import ArrayLike, EnergyCorrection, Formulation, Integrator, StabilizationName, SystemLike
-from .._writing import write_atomically
+from .._private import checks
+from .._private.types import ArrayLike, EnergyCorrection, Formulation, Integrator, StabilizationName, SystemLike
+from .._private.writing import write_atomically
 from ..errors import Interrupted, MissingPackage, SingularSystem, WrongType, WrongValue
 from ..runs.arguments import methods, settings
 from ..runs.open.keyboard import progress_of
@@ -201,14 +201,14 @@ def work_precision(
     >>> bool(wp.pareto()[-1].error < 1e-9)
     True
     """
-    system, span = system_of(system, p0, v0), _check.span(t_span)
+    system, span = system_of(system, p0, v0), checks.span(t_span)
     taken, able = methods.integrators(system), _able(system, span, p0, v0) if formulations is None else formulations
     formulations = _names("formulations", methods.formulations(), able)
     integrators = _names("integrators", methods.integrators(), taken if integrators is None else integrators)
     steps = default_steps(system, span, p0, v0) if steps is None else [
-        _check.number("steps", each, above=0, code="step-size") for each in steps]
+        checks.number("steps", each, above=0, code="step-size") for each in steps]
     tolerances = TOLERANCES if tolerances is None else [
-        _check.number("tolerances", each, above=0, code="tolerance") for each in tolerances]
+        checks.number("tolerances", each, above=0, code="tolerance") for each in tolerances]
     combinations = [
         Setting(formulation, integrator, *fineness, stabilization, corrected)
         for formulation, integrator, stabilization, corrected in itertools.product(
@@ -217,7 +217,7 @@ def work_precision(
     combinations = [setting for setting in combinations if not settings.disagreement(setting.settings)]
     if not combinations:
         raise WrongValue("at least one combination must be possible: steps, or tolerances with an integrator of adaptive steps")
-    rounds = _check.count("rounds", rounds)
+    rounds = checks.count("rounds", rounds)
     reference = certified.reference(system, span, p0, v0, error=None) if reference is None else reference
     return measured(Bench(system, span, p0, v0, reference, closed_form), combinations, rounds, progress)
 
@@ -260,7 +260,7 @@ def _names(table: str, available: Iterable[str], chosen: Iterable[str] | None) -
     """Chosen names of a table, checked; all if none are chosen."""
     if isinstance(chosen, str):
         raise WrongType(f"{table} must be a list of names, not {chosen!r}")
-    return [_check.choice(table, name, available) for name in (available if chosen is None else chosen)]
+    return [checks.choice(table, name, available) for name in (available if chosen is None else chosen)]
 
 
 def _steps_and_tolerances(integrator: Any, steps: Iterable[float], tolerances: Iterable[float]) -> list[tuple[Any, Any]]:

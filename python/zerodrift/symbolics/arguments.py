@@ -9,7 +9,7 @@ from typing import Any
 import sympy
 from sympy.core.function import AppliedUndef
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongType, WrongValue
 from .graph.derivation import Given
 from .graph.from_sympy import Reader, namesake
@@ -264,7 +264,7 @@ def _parameters(given: Mapping[Any, float]) -> tuple[dict[str, float], list[Any]
         name = key if isinstance(key, str) else key.name
         if name in values:
             raise WrongValue(f"there are two parameters named {name!r}", "duplicate-name")
-        values[name] = _check.number(f"parameter {name!r}", value)
+        values[name] = checks.number(f"parameter {name!r}", value)
     return values, [key for key in given if isinstance(key, sympy.Symbol)]
 
 

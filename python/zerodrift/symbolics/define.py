@@ -14,7 +14,7 @@ try:
 except ImportError as error:
     raise MissingPackage("symbolic systems need SymPy: pip install 'zerodrift[symbolic]'") from error
 
-from .._types import Equations, Expression
+from .._private.types import Equations, Expression
 from ..systems.structure import Structure
 from .arguments import Definition
 from .cache_key import fingerprint

@@ -14,7 +14,7 @@ from .system import SymbolicSystem
 import sympy  # isort: skip  (after `define`, which says what to install)
 from sympy.physics.mechanics import KanesMethod, LagrangesMethod, ReferenceFrame, dynamicsymbols
 
-from .._types import ArrayLike, Expression
+from .._private.types import ArrayLike, Expression
 
 try:
     from sympy.physics.mechanics import System

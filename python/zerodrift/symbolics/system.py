@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import _check, _gateway
-from .._gateway import TERMS, NativeCore, Variable
-from .._gateway.compiled.precise import Precise
-from .._gateway.inputs import Bound, Place
+from .._private import checks, gateway
+from .._private.gateway import TERMS, NativeCore, Variable
+from .._private.gateway.compiled.precise import Precise
+from .._private.gateway.inputs import Bound, Place
 from ..errors import NeedsCompiler, NoCompilerWarning, UnsuitedIntegrator, WrongValue
 from ..systems.base import BaseSystem
 from ..systems.defaults import WithInputs
@@ -83,8 +83,8 @@ class SymbolicSystem(BaseSystem):
         self.constraints = tuple(Variable(row, "") for row in code.constraints)
         self._packing = checked(code.structure and Structure(**code.structure), code.sizes, "A" in code.provides)
         self._set_start(p0, v0)
-        self._values = np.array([_check.number(f"parameter {key!r}", parameters[key]) for key in code.parameters])
-        is_length = [_gateway.is_length(variable) for variable in (*self.coordinates, *self.velocities)]
+        self._values = np.array([checks.number(f"parameter {key!r}", parameters[key]) for key in code.parameters])
+        is_length = [gateway.is_length(variable) for variable in (*self.coordinates, *self.velocities)]
         self._closed_form = closed_form or ClosedFormFunctions(
             code.program, code.sizes, self._values, self.p0, np.array(is_length), len(self._values) + code.constants)
         self._series = SeriesFunctions(code.program, code.sizes)
@@ -100,7 +100,7 @@ class SymbolicSystem(BaseSystem):
         self._with_closed_form: dict[tuple[str, bool], NativeCore] = {}     # by vector unit, and whether they embed
 
     def _native(self) -> NativeCore:
-        code, address = self._code, _gateway.address_of(self._library, "zd_symbolic_evaluate")
+        code, address = self._code, gateway.address_of(self._library, "zd_symbolic_evaluate")
         return NativeCore(code.sizes, code.provides, address, self._data(), (*self.coordinates, *self.velocities),
                                    scratch=code.scratch, keep=self._library, timeless=code.timeless, quaternions=self._places,
                                    packing=self._packing)
@@ -114,42 +114,42 @@ class SymbolicSystem(BaseSystem):
         data.flags.writeable = False
         return data
 
-    def _closed_form_core(self, vector: str = "baseline", embeds: bool = False) -> _gateway.CoreSystem:
+    def _closed_form_core(self, vector: str = "baseline", embeds: bool = False) -> gateway.CoreSystem:
         functions, core = self._functions(embeds), self._core
         library = functions.library(vector) if self.compiled else None
         if library is None or not isinstance(core, NativeCore):
             return core
         if (vector, embeds) not in self._with_closed_form:
             data = self._with_closed_form_data(library, functions)
-            address = _gateway.address_of(library, CLOSED_FORM)
+            address = gateway.address_of(library, CLOSED_FORM)
             self._with_closed_form[vector, embeds] = core.with_closed_form(address, data, library)
         return self._with_closed_form[vector, embeds]
 
     def _why_no_closed_form(self, embeds: bool = False) -> str:
         return self._functions(embeds).why_none if self.compiled else NO_COMPILER
 
-    def _with_series(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
+    def _with_series(self, core: gateway.CoreSystem, vector: str = "baseline") -> gateway.CoreSystem:
         if not isinstance(core, NativeCore):
             return core
         if self._series.why_none:
             raise UnsuitedIntegrator(f"{self.name} has no Taylor series: {self._series.why_none}")
         library = self._series.library(vector)
-        return core.with_series(_gateway.address_of(library, SeriesFunctions.symbol), library)
+        return core.with_series(gateway.address_of(library, SeriesFunctions.symbol), library)
 
     def _precise_functions(self, vector: str = "baseline") -> Precise | None:
         library = self._precise.library(vector) if self.compiled else None
         if library is None:
             return None
         numbers = np.stack([self._values, np.zeros(len(self._values))], axis=-1)
-        return Precise(_gateway.address_of(library, PreciseFunctions.symbol), numbers, self._code.sizes, library)
+        return Precise(gateway.address_of(library, PreciseFunctions.symbol), numbers, self._code.sizes, library)
 
-    def _with_jacobian(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
+    def _with_jacobian(self, core: gateway.CoreSystem, vector: str = "baseline") -> gateway.CoreSystem:
         library = self._jacobian.library(vector) if self.compiled else None
         if library is None or not isinstance(core, NativeCore):
             return core
-        return core.with_jacobian(_gateway.address_of(library, JacobianFunctions.symbol), library)
+        return core.with_jacobian(gateway.address_of(library, JacobianFunctions.symbol), library)
 
-    def _with_series_of_perturbed(self, core: _gateway.PerturbedCore, vector: str) -> _gateway.CoreSystem:
+    def _with_series_of_perturbed(self, core: gateway.PerturbedCore, vector: str) -> gateway.CoreSystem:
         parameters, program = self._values, self._code.program
         if not self._brings_series or isinstance(program, str):
             return core
@@ -159,7 +159,7 @@ class SymbolicSystem(BaseSystem):
         library = self._perturbed.library(vector)
         if library is None:
             return core
-        return core.with_series(_gateway.address_of(library, SeriesFunctions.symbol), parameters, library)
+        return core.with_series(gateway.address_of(library, SeriesFunctions.symbol), parameters, library)
 
     @property
     def _brings_series(self) -> bool:
@@ -179,7 +179,7 @@ class SymbolicSystem(BaseSystem):
     def _with_inputs(self, names: Sequence[str]) -> WithInputs:
         for name in names:
             if name not in self._inputs:
-                known = f"; {_check.closest(name, self._inputs)}" if self._inputs else ""
+                known = f"; {checks.closest(name, self._inputs)}" if self._inputs else ""
                 raise WrongValue(f"inputs of {self.name} must be declared, zd.symbolic(..., inputs=[...]), and {name!r} is not"
                                  f"{known}", "wrong-name")
         if not self.compiled:
@@ -197,13 +197,13 @@ class SymbolicSystem(BaseSystem):
         derive = zip(libraries, ("zd_symbolic_constants", f"{CLOSED_FORM}_constants"), strict=True)
         mine, pointer, memory = core.with_copied_data()
         places = [Place(name, False, pointer + self._code.parameters.index(name)) for name in names]
-        return Bound(mine, places, [(_gateway.address_of(*each), pointer) for each in derive if each[0]], memory)
+        return Bound(mine, places, [(gateway.address_of(*each), pointer) for each in derive if each[0]], memory)
 
-    def _core_in_lanes(self, vector: str, embeds: bool = False) -> _gateway.CoreSystem:
+    def _core_in_lanes(self, vector: str, embeds: bool = False) -> gateway.CoreSystem:
         """System of one run with functions for SIMD lanes as well; these do not support independent velocities."""
         core = self._closed_form_core(vector, embeds)
         library = None if embeds or core is self._core else self._closed_form.library_in_lanes(vector)
-        return core if library is None else core.with_lanes(_gateway.address_of(library, CLOSED_FORM), library)
+        return core if library is None else core.with_lanes(gateway.address_of(library, CLOSED_FORM), library)
 
     def _with_closed_form_data(self, library: ctypes.CDLL, functions: ClosedFormFunctions) -> np.ndarray:
         """Data of the compiled function followed by the constants of the closed-form functions."""
@@ -225,15 +225,15 @@ class SymbolicSystem(BaseSystem):
         data[:, :len(self._values)] = self._values
         for name, each in parameters.items():
             data[:, self._code.parameters.index(name)] = each
-        _gateway.derive(_gateway.address_of(self._library, "zd_symbolic_constants"), data)
+        gateway.derive(gateway.address_of(self._library, "zd_symbolic_constants"), data)
         if library is not self._library:
-            _gateway.derive(_gateway.address_of(library, f"{CLOSED_FORM}_constants"), data)
+            gateway.derive(gateway.address_of(library, f"{CLOSED_FORM}_constants"), data)
         refused = refusals(self._with, parameters, not_finite(parameters, count))
         return NumberTables(core, data, data.shape[1], self.p0, self.v0, refused)
 
-    def _in_python(self) -> _gateway.PythonCore:
+    def _in_python(self) -> gateway.PythonCore:
         code, written = self._code, _InPython(self._code.python_source, self._values.tolist())
-        return _gateway.PythonCore(code.sizes, code.provides, written, (*self.coordinates, *self.velocities),
+        return gateway.PythonCore(code.sizes, code.provides, written, (*self.coordinates, *self.velocities),
                                    timeless=code.timeless, quaternions=self._places, packing=self._packing)
 
     @property
@@ -246,7 +246,7 @@ class SymbolicSystem(BaseSystem):
         other._with_closed_form = {}
         other.parameters, other._values = self.parameters | changed, self._values.copy()
         for key, value in changed.items():
-            other._values[self._code.parameters.index(key)] = _check.number(f"parameter {key!r}", value)
+            other._values[self._code.parameters.index(key)] = checks.number(f"parameter {key!r}", value)
         other._core = (self._core.with_data(other._data()) if isinstance(self._core, NativeCore)
                        else other._in_python())
         return other
@@ -258,8 +258,8 @@ class SymbolicSystem(BaseSystem):
         return other
 
     def _set_start(self, p0: Any, v0: Any) -> None:
-        self.p0 = None if p0 is None else _check.vector("p0", p0, self._code.sizes[0])
-        self.v0 = None if v0 is None else _check.vector("v0", v0, self._code.sizes[1])
+        self.p0 = None if p0 is None else checks.vector("p0", p0, self._code.sizes[0])
+        self.v0 = None if v0 is None else checks.vector("v0", v0, self._code.sizes[1])
         for x in (self.p0, self.v0):
             if x is not None:
                 x.flags.writeable = False
@@ -278,7 +278,7 @@ class SymbolicSystem(BaseSystem):
         drawing = np.empty(count * dimension)
         values = [self.parameters[key] for key in self._code.parameters]
         _compiled(self._code.drawing_source)(
-            {"points"}, 0.0, _check.vector("p", p, self.nq).tolist(), (), values, {"points": drawing})
+            {"points"}, 0.0, checks.vector("p", p, self.nq).tolist(), (), values, {"points": drawing})
         return drawing.reshape(count, dimension)
 
     def __repr__(self) -> str:

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, Literal, NoReturn
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import _check, _gateway
-from .._gateway import Variable, known_events
-from .._gateway.known_events import Reading
+from .._private import checks, gateway
+from .._private.gateway import Variable, known_events
+from .._private.gateway.known_events import Reading
 from ..errors import WrongName, WrongType, WrongValue
 from .defaults import Defaults
 from .measure_values import Watching
@@ -26,9 +26,9 @@ class Terms:
     __doc__ = "\n".join([
         "The terms of the equations of motion at one (t, p, v); what a system does not have is None.", "",
         "Attributes", "----------",
-        *(f"{name} : ndarray {term.sizes}\n    {term.text[0].upper()}{term.text[1:]}." for name, term in _gateway.TERMS.items())])
+        *(f"{name} : ndarray {term.sizes}\n    {term.text[0].upper()}{term.text[1:]}." for name, term in gateway.TERMS.items())])
 
-    __slots__ = tuple(_gateway.TERMS)
+    __slots__ = tuple(gateway.TERMS)
 
     if TYPE_CHECKING:
         A = M = d = f = Phi = C = Phi_t = xi = V = power = D = gamma = np.empty(0)
@@ -87,7 +87,7 @@ class BaseSystem(Defaults):
         array([[2.]])
         """
         p, v = self._state_or_start(p, v, "p", "v")
-        return Terms(**self._core.evaluate(_check.number("t", t), p, v))
+        return Terms(**self._core.evaluate(checks.number("t", t), p, v))
 
     def product(self, term: Literal["A", "M", "C"], x: ArrayLike, p: ArrayLike | None = None, v: ArrayLike | None = None,
                 t: float = 0.0, *, transposed: bool = False) -> np.ndarray:
@@ -121,10 +121,10 @@ class BaseSystem(Defaults):
         >>> zd.systems.oscillator(mass=2.0).product("M", [3.0])
         array([6.])
         """
-        _check.choice("term", term, [name for name in _gateway.PACKED if self._core.provides & _gateway.TERMS[name].bit])
+        checks.choice("term", term, [name for name in gateway.PACKED if self._core.provides & gateway.TERMS[name].bit])
         p, v = self._state_or_start(p, v, "p", "v")
-        x = _check.vector("x", x, {"A": self.nq, "M": self.nv, "C": self.m}[term] if transposed else self.nv)
-        t = _check.number("t", t)
+        x = checks.vector("x", x, {"A": self.nq, "M": self.nv, "C": self.m}[term] if transposed else self.nv)
+        t = checks.number("t", t)
         return self._core.times(term, self._core.evaluate_stored(t, p, v)[term], x, t, p, v, transposed=transposed)
 
     @property
@@ -144,10 +144,10 @@ class BaseSystem(Defaults):
         """The given state; missing parts are those of the system's start at t."""
         if p is None and self.p0 is None:
             raise WrongValue(f"{p_name} is needed: {self.name} has no start of its own", "missing-argument")
-        at: Any = self.p0 if p is None else _check.vector(p_name, p, self.nq)
+        at: Any = self.p0 if p is None else checks.vector(p_name, p, self.nq)
         if v is None:       # what is the system's own was checked when it was made
             return at, np.zeros(self.nv) if self.v0 is None else self.v0
-        return at, _check.vector(v_name, v, self.nv)
+        return at, checks.vector(v_name, v, self.nv)
 
     def with_parameters(self, changes: Mapping[str, Any] | None = None, /, **changed: Any) -> Any:
         """The same system with some parameters changed; nothing is derived or compiled again.
@@ -183,7 +183,7 @@ class BaseSystem(Defaults):
                                 "duplicate-name")
         changed = {**more, **changed}
         for key in changed:
-            _check.choice("parameter", key, self.parameters)
+            checks.choice("parameter", key, self.parameters)
         return self._with(changed)
 
     def _with(self, changed: dict[str, Any]) -> Any:
@@ -194,7 +194,7 @@ class BaseSystem(Defaults):
                 ("holonomic", _listed(self.constraints[:self.mh])), ("nonholonomic", _listed(self.constraints[self.mh:])),
                 ("freedom", self._freedom())]
         units = self._parameter_units()
-        numbers = _shortened([f"{name} = {_check.shown(value)} {units.get(name, '')}".rstrip()
+        numbers = _shortened([f"{name} = {checks.shown(value)} {units.get(name, '')}".rstrip()
                               for name, value in self.parameters.items()])
         rows += [("parameters" if not i else "", number) for i, number in enumerate(numbers)]
         return "\n".join([self.name, *(f"  {title:14}{what}" for title, what in rows)])
@@ -223,7 +223,7 @@ class BaseSystem(Defaults):
         return NumberTables(core if closed_form is None else self._closed_form_core(*closed_form), None, 0, self.p0, self.v0, {})
 
     @property
-    def _measuring(self) -> _gateway.CoreSystem | None:
+    def _measuring(self) -> gateway.CoreSystem | None:
         """The core's system that provides the measures; None for systems restored from a description only."""
         return getattr(self, "_core", None)
 
@@ -258,7 +258,7 @@ class BaseSystem(Defaults):
         if name in coordinates:
             return Reading(known_events.COORDINATE, coordinates.index(name))
         if name not in velocities:
-            known = _check.closest(name, [*coordinates, *velocities, *self._watching.known])
+            known = checks.closest(name, [*coordinates, *velocities, *self._watching.known])
             raise WrongValue(f"{what} must be a measure, a coordinate or a velocity of {self.name}, not {name!r}; {known}",
                              "unknown-choice")
         return Reading(known_events.VELOCITY, velocities.index(name))
@@ -286,7 +286,7 @@ class BaseSystem(Defaults):
                             "multipliers and has the opposite sign, by (7)", "duplicate-name")
         if why := self._why_unknown(name):
             raise WrongName(why, "not-available")
-        raise WrongName(f"nothing in {self.name} is called {name!r}; {_check.closest(name, self._names_of_quantities())}",
+        raise WrongName(f"nothing in {self.name} is called {name!r}; {checks.closest(name, self._names_of_quantities())}",
                         "wrong-name")
 
     def _unit_of_measure(self, name: str) -> str:
@@ -336,23 +336,23 @@ def _shortened(entries: Sequence[str]) -> list[str]:
     return [*entries[:FIRST_PRINTED], f"({left_out} more)", *entries[-LAST_PRINTED:]]
 
 
-def core_of(system: Any) -> _gateway.CoreSystem:
+def core_of(system: Any) -> gateway.CoreSystem:
     """The core's system of a system; TypeError for other objects and for descriptions without equations."""
     core = getattr(system, "_core", None) if isinstance(system, BaseSystem) else None
     if core is None:
-        raise WrongType(f"system must be one of zd.systems, a zd.System or a zd.Mechanism, not {_check.shown(system)}")
+        raise WrongType(f"system must be one of zd.systems, a zd.System or a zd.Mechanism, not {checks.shown(system)}")
     core.names_of_constraints(system)
     return core
 
 
-def closed_form_core_of(system: Any, vector: str, core_settings: Any) -> _gateway.CoreSystem:
+def closed_form_core_of(system: Any, vector: str, core_settings: Any) -> gateway.CoreSystem:
     """Core system with closed-form functions for a vector unit, if the system has any that a run with these settings uses.
 
     They are compiled at first use.
     """
     core = core_of(system)
-    if _gateway.takes_closed_form(core, core_settings):
-        core = system._closed_form_core(vector, _gateway.takes_embeddings(core_settings))
+    if gateway.takes_closed_form(core, core_settings):
+        core = system._closed_form_core(vector, gateway.takes_embeddings(core_settings))
         core.names_of_constraints(system)
     brought = with_what_it_takes(system, core, vector, core_settings)
     if brought is not core:
@@ -360,8 +360,8 @@ def closed_form_core_of(system: Any, vector: str, core_settings: Any) -> _gatewa
     return brought
 
 
-def with_what_it_takes(system: Any, core: _gateway.CoreSystem, vector: str, core_settings: Any) -> _gateway.CoreSystem:
+def with_what_it_takes(system: Any, core: gateway.CoreSystem, vector: str, core_settings: Any) -> gateway.CoreSystem:
     """The core's system with the series or the Jacobian that the integrator of these settings uses."""
-    if _gateway.takes_series(core_settings):
+    if gateway.takes_series(core_settings):
         return system._with_series(core, vector)
-    return system._with_jacobian(core, vector) if _gateway.takes_jacobian(core_settings) else core
+    return system._with_jacobian(core, vector) if gateway.takes_jacobian(core_settings) else core

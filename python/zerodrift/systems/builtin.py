@@ -10,20 +10,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import _check, _gateway
-from .._gateway.compiled.precise import Precise
+from .._private import checks, gateway
+from .._private.gateway.compiled.precise import Precise
 from ..errors import WrongType, WrongValue
 from .base import BaseSystem
 from .exact_numbers import HELD_AT_START, exact_numbers, exact_start
 from .parameter_tables import NumberTables, not_finite, refusals
 
-_KINDS = _gateway.kinds()
+_KINDS = gateway.kinds()
 
 
 class SystemOfKind(BaseSystem):
     """A system of a kind that C code describes, with its parameters."""
 
-    def __init__(self, kind: _gateway.Kind, parameters: dict[str, Any]) -> None:
+    def __init__(self, kind: gateway.Kind, parameters: dict[str, Any]) -> None:
         name = kind.card.name
         unknown = set(parameters) - {parameter.name for parameter in kind.parameters}
         if unknown:
@@ -39,7 +39,7 @@ class SystemOfKind(BaseSystem):
 
     def points(self, p: ArrayLike) -> np.ndarray | Any:
         """The drawing at p: points (n, 2) or (n, 3) in m, joined by lines where not NaN. None: there is no drawing."""
-        return self._kind.draw(self._core, _check.vector("p", p, self.nq))
+        return self._kind.draw(self._core, checks.vector("p", p, self.nq))
 
     @property
     def _has_plain_laws(self) -> bool:
@@ -61,7 +61,7 @@ class SystemOfKind(BaseSystem):
             values = np.broadcast_to(own, (count, own.size)) if given is None else given.reshape(count, parameter.size)
             wrong |= _is_too_small(parameter, values).any(axis=1)
             columns.append(values)
-        data, p0, v0, reasons = _gateway.tables_of_kind(self._kind, np.ascontiguousarray(np.concatenate(columns, axis=1), float))
+        data, p0, v0, reasons = gateway.tables_of_kind(self._kind, np.ascontiguousarray(np.concatenate(columns, axis=1), float))
         wrong[list(reasons)] = True
         return NumberTables(self._core, data, data.shape[1], p0, v0, refusals(self._with, parameters, wrong))
 
@@ -96,25 +96,25 @@ class BuiltIn(SystemOfKind):
         return {**super()._described(), "parameters": self._given}
 
 
-def _as_numbers(parameter: _gateway.Parameter, given: Any) -> np.ndarray:
+def _as_numbers(parameter: gateway.Parameter, given: Any) -> np.ndarray:
     """Numbers of a parameter for the core."""
     if given is None:
         return np.array(parameter.initial or [np.nan] * parameter.size, dtype=float)
     if parameter.rule == "choice":
-        return np.array([float(parameter.words.index(_check.choice(parameter.name, given, parameter.words)))])
-    values = np.array([_check.number(parameter.name, given)]) if parameter.size == 1 else _check.vector(
+        return np.array([float(parameter.words.index(checks.choice(parameter.name, given, parameter.words)))])
+    values = np.array([checks.number(parameter.name, given)]) if parameter.size == 1 else checks.vector(
         parameter.name, given, parameter.size)
     if _is_too_small(parameter, values).any():
         raise WrongValue(f"{parameter.name} must be {parameter.rule}, not {given!r}", "out-of-range")
     return values
 
 
-def _is_too_small(parameter: _gateway.Parameter, values: np.ndarray) -> np.ndarray:
+def _is_too_small(parameter: gateway.Parameter, values: np.ndarray) -> np.ndarray:
     """Mask of the values that violate the parameter's lower bound; derived values are not checked."""
     return {"positive": values <= 0, "not negative": values < 0}.get(parameter.rule, np.zeros(values.shape, dtype=bool))
 
 
-def _as_given(parameter: _gateway.Parameter, values: np.ndarray) -> Any:
+def _as_given(parameter: gateway.Parameter, values: np.ndarray) -> Any:
     """Value of a parameter as a user would give it; None if it is derived."""
     if parameter.rule == "choice":
         return parameter.words[int(values[0])]
@@ -123,7 +123,7 @@ def _as_given(parameter: _gateway.Parameter, values: np.ndarray) -> Any:
     return float(values[0]) if parameter.size == 1 else tuple(map(float, values))
 
 
-def _documentation(kind: _gateway.Kind) -> str:
+def _documentation(kind: gateway.Kind) -> str:
     card = kind.card
     description = [*textwrap.wrap(card.description, 100), ""] if card.description else []
     lines = [card.summary, "", *description, "Parameters", "----------"]

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check, _gateway
-from .._gateway import Variable
-from .._gateway.inputs import Bound, Place
-from .._types import ArrayLike, TermLike, UserFunction
+from .._private import checks, gateway
+from .._private.gateway import Variable
+from .._private.gateway.inputs import Bound, Place
+from .._private.types import ArrayLike, TermLike, UserFunction
 from ..errors import WrongType, WrongValue
 from .base import BaseSystem
 from .defaults import WithInputs
@@ -113,11 +113,11 @@ class System(BaseSystem):
         units: Sequence[str] | None = None, parameters: dict[str, Any] | None = None, p0: ArrayLike | None = None,
         v0: ArrayLike | None = None, name: str | None = None,
     ) -> None:
-        parameters = {key: _parameter(key, value) for key, value in _check.parameters(parameters).items()}
+        parameters = {key: _parameter(key, value) for key, value in checks.parameters(parameters).items()}
         self._given = {key: _as_now(value) for key, value in locals().items() if key not in ("self", "__class__")}
         self.name, self.parameters = name or "system", parameters
-        names = _check.names("coordinates", coordinates, "p")
-        self.p0 = None if p0 is None else _check.frozen(_check.vector("p0", p0, len(names)))
+        names = checks.names("coordinates", coordinates, "p")
+        self.p0 = None if p0 is None else checks.frozen(checks.vector("p0", p0, len(names)))
         functions = {key: Function(key, self._given[key], self.parameters) for key in SHAPES if self._given[key] is not None}
         if "jacobian" in functions and "constraints" not in functions:
             raise WrongValue("jacobian is given without constraints", "missing-argument")
@@ -130,11 +130,11 @@ class System(BaseSystem):
         rates = [f"{n}_dot" for n in names] if kinematics is None else [f"v{i}" for i in range(sizes[1])]
         self.coordinates, self.velocities = with_units(names, rates, units, kinematics is None, places)
         timeless = not any("t" in function.state_arguments for function in functions.values())
-        self._core = _gateway.PythonCore(sizes, writer.provides, writer, (*self.coordinates, *self.velocities),
+        self._core = gateway.PythonCore(sizes, writer.provides, writer, (*self.coordinates, *self.velocities),
                                          timeless=timeless, quaternions=places, packing=packing)
         self._core.given_jacobian = "jacobian" in functions
         self.constraints = tuple(Variable(f"constraint{i}", "") for i in range(self.m))
-        self.v0 = None if v0 is None else _check.frozen(_check.vector("v0", v0, self.nv))
+        self.v0 = None if v0 is None else checks.frozen(checks.vector("v0", v0, self.nv))
 
     def _with(self, changed: dict[str, Any]) -> System:
         return type(self)(**(self._given | {"parameters": self.parameters | changed}))
@@ -144,17 +144,17 @@ class System(BaseSystem):
         for name in names:
             if name not in known:
                 raise WrongValue(f"inputs must name numbers among the parameters of {self.name}, not {name!r}; "
-                                 f"{_check.closest(name, known) if known else 'it has none'}", "wrong-name")
+                                 f"{checks.closest(name, known) if known else 'it has none'}", "wrong-name")
         return WithInputs(self, [known[name] for name in names], [""] * len(names), self._bound)
 
-    def _bound(self, core: _gateway.CoreSystem, names: Sequence[str]) -> Bound:
+    def _bound(self, core: gateway.CoreSystem, names: Sequence[str]) -> Bound:
         """The system of one run, whose callables read memory that the core writes inputs to."""
         owners = {name.partition("[")[0] for name in names}
         memory = {owner: np.array(self.parameters[owner], dtype=float) for owner in sorted(owners)}
         views = {owner: array.view(Live) for owner, array in memory.items()}
         mine = self._with(views)._core.for_run()
         index = {name: i for each in self._arrays_of_inputs().values() for i, name in enumerate(each.ravel().tolist())}
-        places = [Place(name, False, _gateway.doubles(memory[owner], memory[owner].size) + index.get(name, 0))
+        places = [Place(name, False, gateway.doubles(memory[owner], memory[owner].size) + index.get(name, 0))
                   for name in names for owner in [name.partition("[")[0]]]
         return Bound(mine, places, (), memory)
 
@@ -211,12 +211,12 @@ def _parameter(name: str, value: Any) -> Any:
     """Parameter value for callables: a read-only copy of an array; other objects, except strings, as they are."""
     if isinstance(value, str | bytes) or (isinstance(value, np.ndarray) and value.dtype.kind not in "biufcO"):
         raise WrongType(f"parameter {name!r} must be a number, an array of numbers or an object except a string, not {value!r}")
-    if _check.is_masked(value):
+    if checks.is_masked(value):
         raise WrongValue(f"parameter {name!r} must have no masked entries, not {value!r}", "not-finite")
     if isinstance(value, Live):
         value.flags.writeable = False
         return value
-    return _check.frozen(value) if isinstance(value, np.ndarray) and value.dtype != object else value
+    return checks.frozen(value) if isinstance(value, np.ndarray) and value.dtype != object else value
 
 
 # The shape of what each callable returns. The first callable in which a size appears determines that size.
@@ -229,7 +229,7 @@ def _anywhere(nq: int, quaternions: tuple[int, ...]) -> np.ndarray:
     """Default coordinates if there is no start: zero, with unit quaternions."""
     p = np.zeros(nq)
     p[list(quaternions)] = 1.0
-    return _check.frozen(p)
+    return checks.frozen(p)
 
 
 def _sizes(functions: dict[str, Function], p: np.ndarray) -> tuple[int, int, int, int]:
@@ -240,7 +240,7 @@ def _sizes(functions: dict[str, Function], p: np.ndarray) -> tuple[int, int, int
         if name not in functions:
             return (0,) * dimensions
         with np.errstate(all="ignore"):
-            found = functions[name].value(0.0, p, _check.frozen(np.zeros(nv))).shape
+            found = functions[name].value(0.0, p, checks.frozen(np.zeros(nv))).shape
         if len(found) != dimensions:
             sizes = SHAPES[name]
             raise WrongValue(f"{name} must return shape ({', '.join(sizes)}{',' * (len(sizes) == 1)}), not {found}: "
@@ -263,6 +263,6 @@ def _check_shapes(functions: dict[str, Function], sizes: dict[str, int], p: np.n
     for name, function in functions.items():
         expected = tuple(sizes[size] for size in SHAPES[name])
         with np.errstate(all="ignore"):
-            found = function.value(0.0, p, _check.frozen(np.zeros(sizes["nv"]))).shape
+            found = function.value(0.0, p, checks.frozen(np.zeros(sizes["nv"]))).shape
         if found != expected:
             raise WrongValue(f"{name} must return shape {expected}, not {found}", "shape")

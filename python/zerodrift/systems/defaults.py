@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import _gateway
-from .._gateway import CoreSystem, Variable
-from .._gateway.compiled.precise import Precise
+from .._private import gateway
+from .._private.gateway import CoreSystem, Variable
+from .._private.gateway.compiled.precise import Precise
 from ..errors import WrongValue
 from .shapes import Shape
 
@@ -152,7 +152,7 @@ class Defaults:
     @property
     def _formulation(self) -> str:
         """Formulation of runs that name none."""
-        return _gateway.default("formulations")
+        return gateway.default("formulations")
 
     @property
     def _held_at_start(self) -> tuple[list[int], list[int]]:
@@ -163,7 +163,7 @@ class Defaults:
         """The core's system, with the Jacobian of its motion where it has one."""
         return core
 
-    def _with_series_of_perturbed(self, core: _gateway.PerturbedCore, vector: str) -> CoreSystem:
+    def _with_series_of_perturbed(self, core: gateway.PerturbedCore, vector: str) -> CoreSystem:
         """The core's perturbed system, with the Taylor series of the perturbed motion."""
         return core
 

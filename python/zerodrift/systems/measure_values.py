@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .. import _check, _gateway
-from .._gateway import Acting, CoreSystem
-from .._rotations import angles_of, is_order, quaternions_of
+from .._private import checks, gateway
+from .._private.gateway import Acting, CoreSystem
+from .._private.rotations import angles_of, is_order, quaternions_of
 from ..errors import WrongName, WrongValue
 
 AXES = {"x": 0, "y": 1, "z": 2}     # names of components
@@ -130,7 +130,7 @@ class Watching:
         if known is None:
             formulation, states = _formulation(solution.settings["formulation"]), _states(solution, part)
             is_own = core is not self.core
-            vdot, _, chosen = _gateway.accelerations(core, formulation, 1, *states, is_own=is_own)
+            vdot, _, chosen = gateway.accelerations(core, formulation, 1, *states, is_own=is_own)
             known = vdot, np.array(solution.multipliers[part])
             if chosen.any():
                 of_chosen = [each[chosen] for each in (*states, *known)]
@@ -157,7 +157,7 @@ class Watching:
             raise WrongValue(f"a run must have ended before inputs are read from its file, and {missing[0]!r} is not in it yet",
                              "unreadable-file")
         given = np.column_stack([solution[name] for name in names])
-        inputs = _gateway.Inputs(names, given[0].copy(), given[0], given[0], [bound])
+        inputs = gateway.Inputs(names, given[0].copy(), given[0], given[0], [bound])
         ends = [*(np.flatnonzero((given[1:] != given[:-1]).any(axis=1)) + 1), len(given)]
         for first, end in zip([0, *ends], ends, strict=False):
             inputs.set_constant(given[first])
@@ -176,7 +176,7 @@ class Watching:
         """
         found = self.find(name)
         if found is None:
-            raise WrongName(f"nothing measured is called {name!r}; {_check.closest(name, self.known)}", "wrong-name")
+            raise WrongName(f"nothing measured is called {name!r}; {checks.closest(name, self.known)}", "wrong-name")
         same: Any = np.ones(self._measures[found.number].size, dtype=bool)
         if self.core.measure_depends(found.number) == "accelerations" and self.core.m:
             changes = self._evaluate(found.number, solution, "redundant")
@@ -195,7 +195,7 @@ def _are_unique(changes: np.ndarray) -> np.ndarray:
 def _formulation(given: Any) -> int:
     """Index in the core of a formulation given by its name or its settings."""
     name = given if isinstance(given, str) else given.card.name
-    return [card.name for card in _gateway.cards("formulations")].index(name)
+    return [card.name for card in gateway.cards("formulations")].index(name)
 
 
 def _parts(solution: Any) -> list[slice]:

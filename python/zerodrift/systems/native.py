@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import _check, _gateway
-from .._gateway import TERMS, Variable
-from .._gateway.inputs import Bound, Place
+from .._private import checks, gateway
+from .._private.gateway import TERMS, Variable
+from .._private.gateway.inputs import Bound, Place
 from ..errors import WrongType, WrongValue, ZerodriftError, sentence
 from .base import BaseSystem
 from .builtin import SystemOfKind
@@ -30,7 +30,7 @@ BIT = _made("Bits", TERMS)(*(term.bit for term in TERMS.values()))
 BIT.__class__.__doc__ = "Bits of ``want`` that request a term: ``want & BIT.M``."
 SLOT = _made("Slots", TERMS)(*range(len(TERMS)))
 SLOT.__class__.__doc__ = "Indices of the pointers to the terms: ``out[SLOT.M]``."
-INTERFACE_VERSION = _gateway.VERSION
+INTERFACE_VERSION = gateway.VERSION
 KIND = "zd_kind_"       # what the name of a `zd_kind` begins with in a library
 
 
@@ -57,7 +57,7 @@ def get_include() -> str:
 
 def numba_signature() -> Any:
     """Signature for `numba.cfunc` of a function for `zerodrift.native`."""
-    return _gateway.numba_signature()
+    return gateway.numba_signature()
 
 
 def native(
@@ -147,7 +147,7 @@ def native(
         return _described_by_library(function, symbol, parameters, [key for key, value in given.items() if value is not None])
     if terms is None:
         raise WrongType("terms is needed with coordinates: the names of the terms that the function writes", "compiled-function")
-    return Native(_gateway.find(function, symbol, version), coordinates=coordinates, terms=terms, velocities=velocities,
+    return Native(gateway.find(function, symbol, version), coordinates=coordinates, terms=terms, velocities=velocities,
                   constraints=(constraints, nonholonomic), parameters=parameters, quaternions=quaternions, structure=structure,
                   units=units, start=(p0, v0), scratch=scratch, name=name)
 
@@ -157,16 +157,16 @@ class Native(BaseSystem):
 
     _has_own_energy = True
 
-    def __init__(self, found: _gateway.Function, *, coordinates: Any, terms: Any, velocities: Any, constraints: tuple[Any, Any],
+    def __init__(self, found: gateway.Function, *, coordinates: Any, terms: Any, velocities: Any, constraints: tuple[Any, Any],
                  parameters: Any, quaternions: Any, structure: Any, units: Any, start: tuple[Any, Any], scratch: int,
                  name: str | None) -> None:
         self._found, (p0, v0) = found, start
-        names = _check.names("coordinates", coordinates, "p")
-        holonomic = _check.names("constraints", constraints[0], "constraint", least=0)
-        rows = holonomic + _check.names("nonholonomic", constraints[1], "rolling", least=0)
+        names = checks.names("coordinates", coordinates, "p")
+        holonomic = checks.names("constraints", constraints[0], "constraint", least=0)
+        rows = holonomic + checks.names("nonholonomic", constraints[1], "rolling", least=0)
         terms = _checked_terms(terms, len(holonomic), len(rows))
         rates = _velocity_names(velocities, names, "A" in terms)
-        self.parameters = {key: _check.number(key, value) for key, value in _check.parameters(parameters).items()}
+        self.parameters = {key: checks.number(key, value) for key, value in checks.parameters(parameters).items()}
         sizes = (len(names), len(rates), len(holonomic), len(rows) - len(holonomic))
         data = np.array([*self.parameters.values()], dtype=float)
         places = quaternion_places(quaternions, names, "A" in terms)
@@ -175,13 +175,13 @@ class Native(BaseSystem):
         packing = checked(structure, sizes, "A" in terms)
         if packing and "D" in terms:
             raise WrongValue("terms cannot have D where the structure is declared", "compiled-function")
-        self._core = _gateway.NativeCore(sizes, terms, found.address, data, (*self.coordinates, *self.velocities),
-                                         keep=found.keep, scratch=_check.count("scratch", scratch, least=0), quaternions=places,
+        self._core = gateway.NativeCore(sizes, terms, found.address, data, (*self.coordinates, *self.velocities),
+                                         keep=found.keep, scratch=checks.count("scratch", scratch, least=0), quaternions=places,
                                          packing=packing)
         self._core.given_jacobian = True
         self.name = name or "native system"
-        self.p0 = None if p0 is None else _check.frozen(_check.vector("p0", p0, self.nq))
-        self.v0 = None if v0 is None else _check.frozen(_check.vector("v0", v0, self.nv))
+        self.p0 = None if p0 is None else checks.frozen(checks.vector("p0", p0, self.nq))
+        self.v0 = None if v0 is None else checks.frozen(checks.vector("v0", v0, self.nv))
         self._given = {"coordinates": names, "velocities": rates, "constraints": (holonomic, rows[len(holonomic):]),
                        "terms": terms, "quaternions": places, "structure": structure, "units": units,
                        "start": (self.p0, self.v0), "scratch": scratch, "name": name}
@@ -193,11 +193,11 @@ class Native(BaseSystem):
     def _with_inputs(self, names: Sequence[str]) -> WithInputs:
         for name in names:
             if name not in self.parameters:
-                known = _check.closest(name, self.parameters) if self.parameters else "it has none"
+                known = checks.closest(name, self.parameters) if self.parameters else "it has none"
                 raise WrongValue(f"inputs must be parameters of {self.name}, not {name!r}; {known}", "wrong-name")
         return WithInputs(self, [self.parameters[name] for name in names], [""] * len(names), self._bound)
 
-    def _bound(self, core: _gateway.NativeCore, names: Sequence[str]) -> Bound:
+    def _bound(self, core: gateway.NativeCore, names: Sequence[str]) -> Bound:
         """System of one run, with data of its own."""
         mine, pointer, memory = core.with_copied_data()
         order = list(self.parameters)
@@ -216,13 +216,13 @@ class Native(BaseSystem):
 
 
 def _restored(where: Any, given: dict[str, Any]) -> Native:
-    return Native(_gateway.find(where, None, None), **given)
+    return Native(gateway.find(where, None, None), **given)
 
 
 class NativeKind(SystemOfKind):
     """A system that a shared library describes."""
 
-    def __init__(self, found: _gateway.Function, kind: _gateway.Kind, parameters: dict[str, Any]) -> None:
+    def __init__(self, found: gateway.Function, kind: gateway.Kind, parameters: dict[str, Any]) -> None:
         super().__init__(kind, parameters)
         self._found = found
         self._core.keep, self._core.given_jacobian = found.keep, True
@@ -245,23 +245,23 @@ def _described_by_library(library: Any, symbol: Any, parameters: Any, others: li
     if others:
         raise WrongType(f"{others[0]} is for a function, with its coordinates: {KIND}{symbol} says it itself",
                         "compiled-function")
-    found = _gateway.in_library(library, KIND + symbol if isinstance(symbol, str) and symbol else symbol)
-    return _from_library(found, _check.parameters(parameters))
+    found = gateway.in_library(library, KIND + symbol if isinstance(symbol, str) and symbol else symbol)
+    return _from_library(found, checks.parameters(parameters))
 
 
-def _from_library(found: _gateway.Function, parameters: dict[str, Any]) -> NativeKind:
+def _from_library(found: gateway.Function, parameters: dict[str, Any]) -> NativeKind:
     where = f"{found.origin.symbol} of {found.origin.path}"
     try:
-        kind = _gateway.kind_at(found.address)
-        _check.parameters({parameter.name: None for parameter in kind.parameters})
-        _checked_terms(_gateway.terms_of(kind.c.system), kind.c.system.mh, kind.c.system.mh + kind.c.system.mn)
+        kind = gateway.kind_at(found.address)
+        checks.parameters({parameter.name: None for parameter in kind.parameters})
+        _checked_terms(gateway.terms_of(kind.c.system), kind.c.system.mh, kind.c.system.mh + kind.c.system.mn)
     except ValueError as error:
         raise WrongValue(f"{where}: {sentence(error)}", "compiled-function") from None
     return NativeKind(found, kind, parameters)
 
 
 def _restored_from_library(found: Any, parameters: dict[str, Any]) -> NativeKind:
-    return _from_library(_gateway.find(found, None, None), parameters)
+    return _from_library(gateway.find(found, None, None), parameters)
 
 
 # ---- checks ----
@@ -270,7 +270,7 @@ def _restored_from_library(found: Any, parameters: dict[str, Any]) -> NativeKind
 def _checked_terms(given: Any, mh: int, m: int) -> list[str]:
     """Terms that a function writes, checked against the numbers of constraints."""
     needed = ["M", *["Phi"] * (mh > 0), *["C", "xi"] * (m > 0)]
-    terms = [_check.choice("terms", term, TERMS) for term in ([given] if isinstance(given, str) else given)]
+    terms = [checks.choice("terms", term, TERMS) for term in ([given] if isinstance(given, str) else given)]
     missing = [term for term in needed if term not in terms]
     if missing:
         raise WrongValue(f"terms must have {', '.join(missing)}, with {mh} holonomic of {m} constraints, not only "
@@ -286,7 +286,7 @@ def _checked_terms(given: Any, mh: int, m: int) -> list[str]:
 def _velocity_names(velocities: Any, coordinates: list[str], kinematics: bool) -> list[str]:
     if velocities is None:
         return [f"v{i}" for i in range(len(coordinates))] if kinematics else [f"{name}_dot" for name in coordinates]
-    rates = _check.names("velocities", velocities, "v")
+    rates = checks.names("velocities", velocities, "v")
     if len(rates) != len(coordinates) and not kinematics:
         raise WrongValue(f"velocities must be as many as coordinates, {len(coordinates)}, unless terms have A, not {len(rates)}",
                          "compiled-function")
@@ -297,7 +297,7 @@ def _check_at_start(system: BaseSystem) -> None:
     """Refuse a function that does not write its declared terms, if there is a state to test it at."""
     if system.p0 is None:
         return
-    wrong = _gateway.probe(system._core, *system._state_or_start(None, None))
+    wrong = gateway.probe(system._core, *system._state_or_start(None, None))
     if wrong:
         said = f"the function of {system.name} does not do what it is said to: {wrong}"
         raise ZerodriftError(said) if wrong.startswith("it reports") else WrongValue(said, "compiled-function")

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .._gateway import CoreSystem
+from .._private.gateway import CoreSystem
 from ..errors import described
 
 

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import _check, _gateway
+from .._private import checks, gateway
 from ..errors import WrongType, WrongValue, sentence
 
-WORDS = {"": 0, "constant": _gateway.CONSTANT, "diagonal": _gateway.DIAGONAL,
-         "constant diagonal": _gateway.CONSTANT | _gateway.DIAGONAL}
+WORDS = {"": 0, "constant": gateway.CONSTANT, "diagonal": gateway.DIAGONAL,
+         "constant diagonal": gateway.CONSTANT | gateway.DIAGONAL}
 
 
 @dataclass(frozen=True)
@@ -72,9 +72,9 @@ class Structure:
         object.__setattr__(self, "mass", _words(self.mass, len(self.blocks)))
 
     @cached_property
-    def _packing(self) -> _gateway.Packing:
+    def _packing(self) -> gateway.Packing:
         sizes = zip(self.blocks, self.mass, strict=True)
-        return _gateway.Packing([(p, v, WORDS[word]) for (p, v), word in sizes], self.groups)
+        return gateway.Packing([(p, v, WORDS[word]) for (p, v), word in sizes], self.groups)
 
     nq = property(lambda self: self._packing.shapes["A"][0])
     nv = property(lambda self: self._packing.shapes["A"][1])
@@ -82,24 +82,24 @@ class Structure:
 
     def size(self, term: str) -> int:
         """Number of stored entries of "A", "M" or "C"."""
-        return self._packing.size(_check.choice("term", term, _gateway.PACKED))
+        return self._packing.size(checks.choice("term", term, gateway.PACKED))
 
     def offsets(self, term: str) -> tuple[int, ...]:
         """Offset of each block or group among the stored entries of "A", "M" or "C", and the end."""
-        return self._packing.offsets[_check.choice("term", term, _gateway.PACKED)]
+        return self._packing.offsets[checks.choice("term", term, gateway.PACKED)]
 
     def places(self, term: str) -> list[int]:
         """Index of each stored entry in the dense row-major matrix "A", "M" or "C"."""
-        return self._packing.places(_check.choice("term", term, _gateway.PACKED))
+        return self._packing.places(checks.choice("term", term, gateway.PACKED))
 
     def expand(self, term: str, packed: ArrayLike) -> np.ndarray:
         """The dense matrix "A" (nq, nv), "M" (nv, nv) or "C" (m, nv) of what is stored of it."""
-        return self._packing.expand(term, _check.vector("packed", packed, self.size(term)))
+        return self._packing.expand(term, checks.vector("packed", packed, self.size(term)))
 
     def pack(self, term: str, dense: ArrayLike) -> np.ndarray:
         """Stored entries of a dense matrix "A", "M" or "C"; ValueError if it has an entry outside all blocks and groups."""
         self.size(term)
-        given = _check.real("dense must be", dense).astype(float)
+        given = checks.real("dense must be", dense).astype(float)
         if given.shape != self._packing.shapes[term]:
             raise WrongValue(f"dense must be of shape {self._packing.shapes[term]}, not {given.shape}", "declared-structure")
         try:
@@ -108,7 +108,7 @@ class Structure:
             raise WrongValue(f"{term}{sentence(error)}", "declared-structure") from None
 
 
-def of_core(core: _gateway.CoreSystem) -> Structure | None:
+def of_core(core: gateway.CoreSystem) -> Structure | None:
     """Structure of a system of the core."""
     packing = core.packing
     if packing is None:
@@ -117,11 +117,11 @@ def of_core(core: _gateway.CoreSystem) -> Structure | None:
     return Structure([(p, v) for p, v, _ in packing.blocks], packing.groups, [words[bits] for *_, bits in packing.blocks])
 
 
-def checked(structure: Any, sizes: tuple[int, int, int, int], has_A: bool) -> _gateway.Packing | None:
+def checked(structure: Any, sizes: tuple[int, int, int, int], has_A: bool) -> gateway.Packing | None:
     """Core object of a structure, checked against the sizes (nq, nv, mh, mn) of a system."""
     if structure is None:
         return None
-    _check.instance("structure", structure, Structure, "a zd.Structure")
+    checks.instance("structure", structure, Structure, "a zd.Structure")
     nq, nv, mh, mn = sizes
     for what, there, has in (("coordinates", structure.nq, nq), ("velocities", structure.nv, nv),
                              ("constraints", structure.m, mh + mn)):
@@ -142,7 +142,7 @@ def checked(structure: Any, sizes: tuple[int, int, int, int], has_A: bool) -> _g
 
 def _sequence(name: str, given: Any, of: str) -> Sequence[Any] | np.ndarray:
     if isinstance(given, str) or not isinstance(given, Sequence | np.ndarray):
-        raise WrongType(f"{name} must be a sequence {of}, not {_check.shown(given)}", "declared-structure")
+        raise WrongType(f"{name} must be a sequence {of}, not {checks.shown(given)}", "declared-structure")
     return given
 
 
@@ -153,29 +153,29 @@ def _blocks(given: Any) -> tuple[tuple[int, int], ...]:
         raise WrongValue("blocks must be at least one", "declared-structure")
     for b, pair in enumerate(pairs):
         if len(pair) != 2:
-            raise WrongValue(f"blocks[{b}] must be a count or (coordinates, velocities), not {_check.shown(listed[b])}",
+            raise WrongValue(f"blocks[{b}] must be a count or (coordinates, velocities), not {checks.shown(listed[b])}",
                              "declared-structure")
-    return tuple((_check.count(f"blocks[{b}]", p), _check.count(f"blocks[{b}]", v)) for b, (p, v) in enumerate(pairs))
+    return tuple((checks.count(f"blocks[{b}]", p), checks.count(f"blocks[{b}]", v)) for b, (p, v) in enumerate(pairs))
 
 
 def _group(g: int, given: Any, blocks: int) -> tuple[int, tuple[int, ...]]:
     name = f"groups[{g}]"
     pair = _sequence(name, given, "(rows, blocks)")
     if len(pair) != 2:
-        raise WrongValue(f"{name} must be (rows, blocks), not {_check.shown(given)}", "declared-structure")
+        raise WrongValue(f"{name} must be (rows, blocks), not {checks.shown(given)}", "declared-structure")
     listed = _sequence(f"the blocks of {name}", pair[1], "of indices")
-    touched = tuple(_check.count(f"a block of {name}", b, least=0) for b in listed)
+    touched = tuple(checks.count(f"a block of {name}", b, least=0) for b in listed)
     for b in touched:
         if b >= blocks:
             raise WrongValue(f"{name} touches block {b}, and there are blocks 0 to {blocks - 1}", "declared-structure")
     if not touched or list(touched) != sorted(set(touched)):
-        raise WrongValue(f"{name} must touch at least one block, in increasing order, not {_check.shown(pair[1])}",
+        raise WrongValue(f"{name} must touch at least one block, in increasing order, not {checks.shown(pair[1])}",
                          "declared-structure")
-    return _check.count(f"the rows of {name}", pair[0]), touched
+    return checks.count(f"the rows of {name}", pair[0]), touched
 
 
 def _words(given: Any, blocks: int) -> tuple[str, ...]:
     words = (given,) * blocks if isinstance(given, str) else tuple(_sequence("mass", given, "of words"))
     if len(words) != blocks:
         raise WrongValue(f"mass must be one word, or {blocks}, one for each block, not {len(words)}", "declared-structure")
-    return tuple(_check.choice("mass", word, WORDS) for word in words)
+    return tuple(checks.choice("mass", word, WORDS) for word in words)

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongType, WrongValue
 from . import autodiff
 
@@ -34,17 +34,17 @@ class Function:
     def __init__(self, name: str, given: Any, parameters: dict[str, Any]) -> None:
         self.name = name
         if callable(given):
-            names = arguments(name, given, [*_check.STATE, *parameters])
+            names = arguments(name, given, [*checks.STATE, *parameters])
             bound = {key: _view(parameters[key]) for key in names if key in parameters}
             self.state_arguments = frozenset(names) - frozenset(bound)
             self._function = functools.partial(given, **bound) if bound else given
         else:
-            value = _check.frozen(_check.real(f"{name} must be a callable, or", given, objects=True).astype(float))
+            value = checks.frozen(checks.real(f"{name} must be a callable, or", given, objects=True).astype(float))
             self.state_arguments, self._function = frozenset(), lambda: value
         self._call = _CALLS[self.state_arguments]
 
     def _tell(self, error: BaseException, t: float, how: str = "") -> None:
-        _check.tell(error, f"in {self.name}, called at t = {t:g}{how}")
+        checks.tell(error, f"in {self.name}, called at t = {t:g}{how}")
 
     def value(self, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
         """Result of the user's function, checked to be real; its exceptions get a note with the function and t."""
@@ -55,7 +55,7 @@ class Function:
             raise
         if type(value) is np.ndarray and value.dtype is _DOUBLE:
             return value
-        return _check.real(f"{self.name} must return", value, f" (at t = {t:g})", objects=True)
+        return checks.real(f"{self.name} must return", value, f" (at t = {t:g})", objects=True)
 
     def write(self, out: np.ndarray, t: float, p: np.ndarray, v: np.ndarray) -> None:
         """Write the checked value to an array of the core."""
@@ -72,8 +72,8 @@ class Function:
             self._tell(error, autodiff.value(t), " for its derivatives (forward-mode automatic differentiation)")
             raise
         result = np.asarray(returned, dtype=object)
-        numbers = returned if _check.is_masked(returned) else autodiff.numbers(result)
-        if _check.real(f"{self.name} must return", numbers, where, objects=True).shape != shape:
+        numbers = returned if checks.is_masked(returned) else autodiff.numbers(result)
+        if checks.real(f"{self.name} must return", numbers, where, objects=True).shape != shape:
             raise WrongValue(f"{self.name} must return shape {shape}, not {result.shape}{where}", "shape")
         return result
 

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from .. import _check, _gateway
-from .._gateway import Variable
+from .._private import checks, gateway
+from .._private.gateway import Variable
 from ..errors import WrongValue
 
 
 def quaternion_places(given: Any, names: Sequence[str], has_kinematics: bool) -> tuple[int, ...]:
     """Increasing indices in p at which unit quaternions begin, each given by index or name of its first coordinate."""
-    listed = _check.instance("quaternions", given, Sequence, "a sequence of indices or names of coordinates")
-    places = sorted(list(names).index(_check.choice("quaternions", first, names)) if isinstance(first, str) else
-                    _check.count("quaternions", first, least=0) for first in listed)
+    listed = checks.instance("quaternions", given, Sequence, "a sequence of indices or names of coordinates")
+    places = sorted(list(names).index(checks.choice("quaternions", first, names)) if isinstance(first, str) else
+                    checks.count("quaternions", first, least=0) for first in listed)
     if places and not has_kinematics:
         raise WrongValue("quaternions need kinematics, as their rates are not velocities", "missing-argument")
     for k, place in enumerate(places):
@@ -34,7 +34,7 @@ def with_units(names: Sequence[str], rates: Sequence[str], units: Any,
                          f"{'' if are_rates else ' and each velocity'}, not {units!r}", "shape")
     coordinates = tuple(map(Variable, names, all_units))
     for variable in (coordinates[first + i] for first in quaternions for i in range(4)):
-        if _gateway.is_length(variable):
+        if gateway.is_length(variable):
             raise WrongValue(f"units of a quaternion must be those of pure numbers, and {variable.name} has {variable.unit!r}")
     rate_units = [f"{unit}/s" if unit else "" for unit in all_units] if are_rates else all_units[len(names):]
     return coordinates, tuple(map(Variable, rates, rate_units))

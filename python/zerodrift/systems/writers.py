@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import _gateway
-from .._gateway import TERMS
+from .._private import gateway
+from .._private.gateway import TERMS
 from ..errors import WrongValue, sentence
 from . import autodiff
 from .user_callables import Function
@@ -115,11 +115,11 @@ class Writer:
 class PackedWriter:
     """Writer that packs the dense matrices of another writer; nonzero entries outside the structure are refused."""
 
-    def __init__(self, writer: Any, packing: _gateway.Packing) -> None:
+    def __init__(self, writer: Any, packing: gateway.Packing) -> None:
         self._writer, self._packing, self.provides = writer, packing, writer.provides
 
     def __call__(self, want: int, t: float, arrays: dict[str, np.ndarray]) -> None:
-        packed = [name for name in _gateway.PACKED if name in arrays]
+        packed = [name for name in gateway.PACKED if name in arrays]
         dense = arrays | {name: np.zeros(self._packing.shapes[name]) for name in packed}
         if "C" in dense:
             dense["C_H"], dense["C_NH"] = dense["C"][: self._writer.mh], dense["C"][self._writer.mh :]
@@ -133,4 +133,4 @@ class PackedWriter:
 
     def not_finite(self, name: str, t: float, value: np.ndarray) -> Exception:
         """The error for a term that is not finite."""
-        return self._writer.not_finite(name, t, self._packing.expand(name, value) if name in _gateway.PACKED else value)
+        return self._writer.not_finite(name, t, self._packing.expand(name, value) if name in gateway.PACKED else value)

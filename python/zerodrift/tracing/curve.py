@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._gateway.mechanisms.geometry import Geometry
+from .._private.gateway.mechanisms.geometry import Geometry
 from ..errors import CorrectionFailed
 
 FIRST_STEP = 0.02               # in rad or parts of the mechanism's length

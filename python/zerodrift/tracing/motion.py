@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
-from .._gateway.mechanisms.geometry import Component, Geometry
+from .._private import checks
+from .._private.gateway.mechanisms.geometry import Component, Geometry
 from ..errors import SingularSystem, WrongValue
 from ..mechanisms.assembly.assembly import Assembly
 from ..mechanisms.assembly.start import Starting, size_of
@@ -95,7 +95,7 @@ class Motion:
         for name, value in held.items():
             self._check_scalar("hold", name)
             if value is not None and np.ndim(value):
-                raise WrongValue(f"hold[{name!r}] must be a number, not {_check.shown(value)}")
+                raise WrongValue(f"hold[{name!r}] must be a number, not {checks.shown(value)}")
         return held
 
     def _poses(self, held: dict[str, float | None]) -> np.ndarray:

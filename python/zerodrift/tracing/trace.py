@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
-from .._types import ArrayLike, MeasureLike, Measures, SystemLike, Values
+from .._private import checks
+from .._private.types import ArrayLike, MeasureLike, Measures, SystemLike, Values
 from ..errors import WrongType, WrongValue
 from ..mechanisms.elements.measures import name_of
 from ..mechanisms.system import MechanismSystem
@@ -76,8 +76,8 @@ def trace(system: SystemLike, measure: MeasureLike, values: ArrayLike | None = N
     """
     system = _mechanism(system)
     motion = Motion(system, name_of(measure, "measure"), hold)
-    _check.instance("through", through, (bool, np.bool_), "True or False")
-    count = _check.count("count", count, least=2)
+    checks.instance("through", through, (bool, np.bool_), "True or False")
+    count = checks.count("count", count, least=2)
     if values is None:
         return _whole(motion, count)
     values = _values(values)
@@ -126,7 +126,7 @@ def reach(system: SystemLike, measure: MeasureLike, *, hold: Values | Measures =
 def _mechanism(system: Any) -> MechanismSystem:
     system = system_of(system)
     if not isinstance(system, MechanismSystem):
-        raise WrongType(f"system must be a mechanism of bodies and joints, or its system, not {_check.shown(system)}")
+        raise WrongType(f"system must be a mechanism of bodies and joints, or its system, not {checks.shown(system)}")
     if system._drawing.dimension == 3:
         raise WrongValue(f"{system.name!r} is in space, and curves of positions are traced in the plane, not yet in space",
                          "wrong-dimension")
@@ -134,10 +134,10 @@ def _mechanism(system: Any) -> MechanismSystem:
 
 
 def _values(given: Any) -> np.ndarray:
-    array = _check.real("values must hold", given, ragged="values must be a regular array, not be")
+    array = checks.real("values must hold", given, ragged="values must be a regular array, not be")
     if array.ndim != 1 or not array.size:
         raise WrongValue(f"values must have shape (k,) and at least one entry, not shape {array.shape}", "shape")
-    return _check.vector("values", array, array.size)
+    return checks.vector("values", array, array.size)
 
 
 def _whole(motion: Motion, count: int) -> Trace:

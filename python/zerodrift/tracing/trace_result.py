@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongName
 from ..mechanisms.elements.measures import name_of
 from ..mechanisms.system import MechanismSystem
@@ -133,7 +133,7 @@ class Trace:
         name, watching = name_of(name, "name"), self.system._watching
         place = watching.find(name)
         if place is None:
-            raise WrongName(f"nothing in {self.system.name} is called {name!r}; {_check.closest(name, watching.known)}",
+            raise WrongName(f"nothing in {self.system.name} is called {name!r}; {checks.closest(name, watching.known)}",
                             "wrong-name")
         depends = self.system._measuring.measure_depends(place.number)
         if depends != "positions":

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .. import _check
+from .._private import checks
 from ..errors import WrongType
 from ..mechanisms.elements.joints import Joint
 from ..mechanisms.elements.measures import Measure
@@ -50,10 +50,10 @@ def transmission_angle(m: Mechanism, joint: Joint | str) -> Measure:
     >>> np.degrees([mu.min(), mu.max()]).round(2)
     array([23.07, 73.74])
     """
-    _check.instance("m", m, Mechanism, "a Mechanism")
+    checks.instance("m", m, Mechanism, "a Mechanism")
     m._in_the_plane("transmission_angle")
     found: Any = m[joint] if isinstance(joint, str) else joint
     if not isinstance(found, Joint) or m._elements.get(found.name) != found:
-        raise WrongType(f"joint must be a joint of {m.name!r}, or its name, not {_check.shown(found)}")
+        raise WrongType(f"joint must be a joint of {m.name!r}, or its name, not {checks.shown(found)}")
     transmission.lines(found, transmission.joints_by_body(m._elements))
     return Measure(f"{found.name}.transmission_angle")

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from support import refused
-from zerodrift._gateway.mechanisms import element_tables, plane, space
-from zerodrift._gateway.mechanisms.element_tables import GeneralizedForce, OutputSpec, Relation
+from zerodrift._private.gateway.mechanisms import element_tables, plane, space
+from zerodrift._private.gateway.mechanisms.element_tables import GeneralizedForce, OutputSpec, Relation
 
 BODIES = {plane: plane.Body(1.5, 1.0), space: space.Body(1.5, (1.0, 1.0, 1.0))}
 CORES = {plane: plane.PlaneCore, space: space.SpaceCore}

@@ -7,7 +7,7 @@ import tolerances as tol
 from many_bodies import components
 from mechanism_tables import KINDS, TREE, Body, OutputSpec, Quantity, Tabled, Tables, rotation
 from support import along, assert_close
-from zerodrift._gateway.mechanisms.plane import QUANTITY_KINDS, element_kinds
+from zerodrift._private.gateway.mechanisms.plane import QUANTITY_KINDS, element_kinds
 
 FIRST, SECOND, AXIS, ZERO = (0.3, -0.4), (-0.2, 0.7), (0.6, 0.8), 0.25
 INTEGRABLE = sorted(QUANTITY_KINDS.keys() - {"glide", "skid"})

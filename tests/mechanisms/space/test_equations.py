@@ -7,8 +7,8 @@ from scipy.spatial.transform import Rotation
 from many_bodies import components
 from space_tables import KINDS, exactly_moved, random_frame, random_state, shape_of, unit
 from support import assert_close, refused
-from zerodrift._gateway.mechanisms.plane import GeneralizedForce, OutputSpec, Relation
-from zerodrift._gateway.mechanisms.space import QUANTITY_KINDS, Body, Joint, Quantity, SpaceCore, Tables
+from zerodrift._private.gateway.mechanisms.plane import GeneralizedForce, OutputSpec, Relation
+from zerodrift._private.gateway.mechanisms.space import QUANTITY_KINDS, Body, Joint, Quantity, SpaceCore, Tables
 
 H = 1e-5            # s: of central differences, whose error is some H^2 and round-off over H
 NEAR = 3e-8         # that error, of terms of order one to ten

@@ -7,8 +7,8 @@ import zerodrift as zd
 from space_tables import KINDS, random_frame, random_state
 from support import assert_close
 from tolerances import REACTION, SAME
-from zerodrift._gateway.mechanisms.space import Body, Joint, SpaceCore, Tables
-from zerodrift._gateway.operations import acceleration, accelerations
+from zerodrift._private.gateway.mechanisms.space import Body, Joint, SpaceCore, Tables
+from zerodrift._private.gateway.operations import acceleration, accelerations
 
 SOCKETS = ("spherical", "universal", "revolute", "weld")
 TREE = ((0, 1), (1, 2), (3, 1), (1, 4), (4, 0))     # joints by their bodies: a fork, and a loop through the ground

@@ -6,11 +6,11 @@ from scipy.spatial.transform import Rotation
 
 from space_tables import KINDS, random_frame, unit
 from support import assert_close, refused
-from zerodrift._gateway.base import doubles
-from zerodrift._gateway.mechanisms.plane import GeneralizedForce, Relation
-from zerodrift._gateway.mechanisms.space import Body, Joint, Quantity, SpaceCore, Tables
-from zerodrift._gateway.mechanisms.space_tree import SpaceTreeCore
-from zerodrift._rotations import rotation_of
+from zerodrift._private.gateway.base import doubles
+from zerodrift._private.gateway.mechanisms.plane import GeneralizedForce, Relation
+from zerodrift._private.gateway.mechanisms.space import Body, Joint, Quantity, SpaceCore, Tables
+from zerodrift._private.gateway.mechanisms.space_tree import SpaceTreeCore
+from zerodrift._private.rotations import rotation_of
 
 CARRYING = [name for name, kind in KINDS.items() if kind.freedoms is not None]
 OF_PARTICLES = [name for name in CARRYING if KINDS[name].freedoms and KINDS[name].freedoms[-1].kind == "swings"]

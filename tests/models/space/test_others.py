@@ -10,7 +10,7 @@ import scipy.integrate
 import zerodrift as zd
 from every_model import IN_SPACE, assert_right
 from support import assert_close, refused
-from zerodrift._rotations import rotation_of
+from zerodrift._private.rotations import rotation_of
 
 EXACT = {"integrator": "dop853", "step": None, "rtol": 1e-11, "atol": 1e-11}
 FEW = {"chain": {"links": 4}}

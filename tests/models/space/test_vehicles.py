@@ -8,7 +8,7 @@ import scipy.optimize
 import zerodrift as zd
 from reference_files import definition, number
 from support import assert_close
-from zerodrift._rotations import rotation_of, turn
+from zerodrift._private.rotations import rotation_of, turn
 from zerodrift.models.space.double_wishbone import POINTS
 
 EXACT = {"integrator": "dop853", "step": None, "rtol": 1e-11, "atol": 1e-11}

@@ -10,9 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..._gateway.mechanisms import assembly as core_assembly
-from ..._gateway.mechanisms.assembly import CoreAssembly, CoreTarget, Outcome
-from ..._gateway.mechanisms.core import MechanismCore
+from ..._private.gateway.mechanisms import assembly as core_assembly
+from ..._private.gateway.mechanisms.assembly import CoreAssembly, CoreTarget, Outcome
+from ..._private.gateway.mechanisms.core import MechanismCore
 from ...errors import CorrectionFailed, InconsistentStart
 from .contradictions import contradiction, unit_of
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..._gateway.mechanisms.core import MechanismCore
+from ..._private.gateway.mechanisms.core import MechanismCore
 from ...errors import CorrectionFailed, InconsistentStart
 from ..elements.drawing import Drawing
 from ..elements.forces import Actuator, Motor

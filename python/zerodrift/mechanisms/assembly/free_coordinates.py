@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..._gateway.mechanisms.element_tables import OutputSpec, three
-from ..._gateway.mechanisms.space import Quantity
+from ..._private.gateway.mechanisms.element_tables import OutputSpec, three
+from ..._private.gateway.mechanisms.space import Quantity
 from ..elements.bodies import Body, Point
 from ..elements.drawing import Drawing
 from ..elements.forces import Actuator, Motor

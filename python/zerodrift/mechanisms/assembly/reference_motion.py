@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..._rotations import AXES, rotation_of
+from ..._private.rotations import AXES, rotation_of
 from .assembly import RANK, Assembly, nullspace
 from .nudge import nudged
 

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..._gateway.mechanisms.core import MechanismCore
-from ..._rotations import rotation_of
+from ..._private.gateway.mechanisms.core import MechanismCore
+from ..._private.rotations import rotation_of
 from ..elements.bodies import Body
 from ..elements.joints import Joint
 from ..elements.space_joints import SpaceJoint, SpaceRolling

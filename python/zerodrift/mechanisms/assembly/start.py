@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from ..._gateway.mechanisms.blocks import BlockCore, of_joints
-from ..._gateway.mechanisms.core import MechanismCore
-from ..._gateway.mechanisms.space import SpaceCore
-from ..._rotations import quaternion_of
+from ..._private.gateway.mechanisms.blocks import BlockCore, of_joints
+from ..._private.gateway.mechanisms.core import MechanismCore
+from ..._private.gateway.mechanisms.space import SpaceCore
+from ..._private.rotations import quaternion_of
 from ...errors import CorrectionFailed, InconsistentStart, SingularSystem, sentence
 from ..elements import columns
 from ..elements.drawing import Drawing

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..._rotations import rotation_of
+from ..._private.rotations import rotation_of
 from ...errors import WrongValue
 from ..elements.forces import Actuator
 from ..elements.frames import turned

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ..._gateway.mechanisms.assembly import DRAWN, STAYS
-from ..._gateway.mechanisms.core import MechanismCore
-from ..._gateway.mechanisms.element_tables import OutputSpec
-from ..._gateway.mechanisms.parameter_variants import Held, Varied
+from ..._private.gateway.mechanisms.assembly import DRAWN, STAYS
+from ..._private.gateway.mechanisms.core import MechanismCore
+from ..._private.gateway.mechanisms.element_tables import OutputSpec
+from ..._private.gateway.mechanisms.parameter_variants import Held, Varied
 from ..elements.columns import Column, Varies, expand
 from ..elements.drawing import Drawing
 from ..elements.frames import turned

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check
-from ..._types import ArrayLike
+from ..._private import checks
+from ..._private.types import ArrayLike
 from ...errors import WrongValue
 from ..elements.bodies import Body, Link, Particle, Point
 from ..elements.frames import Pose, Pose3, given_rotation, perpendicular
@@ -62,7 +62,7 @@ class BodyVerbs(Elements):
         """
         name = self._new_name(name, "body")
         at = np.zeros(self.dimension) if at is None else self._drawn(f"at of {name!r}", at)
-        com = np.zeros(self.dimension) if com is None else _check.vector(f"com of {name!r}", com, self.dimension)
+        com = np.zeros(self.dimension) if com is None else checks.vector(f"com of {name!r}", com, self.dimension)
         mass = _amount("mass", name, mass)
         if self.dimension == 3:
             if angle:
@@ -71,7 +71,7 @@ class BodyVerbs(Elements):
             return self._add(SpaceBody(name, turned, mass, tensor(f"inertia of {name!r}", inertia), com))
         if rotation is not None:
             raise WrongValue(f"rotation of {name!r} is for mechanisms in space: in the plane take angle=", "wrong-dimension")
-        pose = Pose(at, _check.number(f"angle of {name!r}", angle))
+        pose = Pose(at, checks.number(f"angle of {name!r}", angle))
         return self._add(Body(name, pose, mass, _amount("inertia", name, inertia), com))
 
     def link(self, name: str, start: ArrayLike | Point, end: ArrayLike | Point, mass: float = 0.0, *, length: float | None = None,
@@ -119,7 +119,7 @@ class BodyVerbs(Elements):
             raise WrongValue(f"start and end of {name!r} must be two places in the drawing, not both {tuple(map(float, start))}",
                              "geometry")
         if length is not None:
-            length = _check.number(f"length of {name!r}", length, above=0)
+            length = checks.number(f"length of {name!r}", length, above=0)
         made = self._made_link(name, start, end, _amount("mass", name, mass), length, inertia, thickness, normal)
         made.has_given_length = length is not None
         return self._add(made)
@@ -145,7 +145,7 @@ class BodyVerbs(Elements):
         z = perpendicular(along, wished)
         rotation = np.stack([along, np.cross(z, along), z], axis=1)
         if thickness is not None:
-            thickness = _check.number(f"thickness of {name!r}", thickness, above=0)
+            thickness = checks.number(f"thickness of {name!r}", thickness, above=0)
         inertia = None if inertia is None else tensor(f"inertia of {name!r}", inertia)
         length = float(np.linalg.norm(end - start)) if length is None else length
         return SpaceLink(name, start, end, mass, length, rotation, thickness, inertia)
@@ -185,7 +185,7 @@ class BodyVerbs(Elements):
         if isinstance(at, Fixed):
             attachment = self._point("at", at)
             return self._add(made(name, attachment.drawn, mass, attachment))
-        return self._add(made(name, _check.vector(f"at of {name!r}", at, self.dimension), mass))
+        return self._add(made(name, checks.vector(f"at of {name!r}", at, self.dimension), mass))
 
     def point(self, name: str, body: Body | str, local: ArrayLike | None = None, *, at: ArrayLike | Point | None = None) -> Point:
         """Add a named point to a body, as ``body.point(local, at=at, name=name)`` does.
@@ -217,4 +217,4 @@ class BodyVerbs(Elements):
 
 
 def _amount(quantity: str, name: str, value: Any) -> float:
-    return _check.number(f"{quantity} of {name!r}", value, least=0)
+    return checks.number(f"{quantity} of {name!r}", value, least=0)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ... import _check
-from ..._types import ArrayLike, Bindings, LawLike, Values
+from ..._private import checks
+from ..._private.types import ArrayLike, Bindings, LawLike, Values
 from ...errors import WrongType, WrongValue
 from ..elements.joints import Coupling, Joint
 from ..elements.measures import Measure, name_of
@@ -92,7 +92,7 @@ class CouplingVerbs(Elements):
         if joints[0] is joints[1]:
             raise WrongValue(f"{name!r} couples {joints[0].name!r} to itself: first and second must be two joints",
                              "wrong-element")
-        ratio = _check.number(f"ratio of {name!r}", ratio)
+        ratio = checks.number(f"ratio of {name!r}", ratio)
         if not ratio:
             raise WrongValue(f"ratio of {name!r} must not be 0", "out-of-range")
         return self._couple(name, kind, tuple(
@@ -137,7 +137,7 @@ class CouplingVerbs(Elements):
         """
         name = self._new_name(name, "coupler")
         if isinstance(value, Mapping):
-            terms = {name_of(measure, f"value of coupler {name!r}"): _check.number(f"coefficient in {name!r}", coefficient)
+            terms = {name_of(measure, f"value of coupler {name!r}"): checks.number(f"coefficient in {name!r}", coefficient)
                      for measure, coefficient in value.items()}
             value, of = _Sum(tuple(terms.values())), {f"x{i}": measure for i, measure in enumerate(terms)}
         return self._by_law(name, "coupler", value, of)
@@ -195,7 +195,7 @@ class CouplingVerbs(Elements):
             profile = _Expression(name, profile)
         elif not callable(profile):
             raise WrongType(f"profile of {name!r} must be a callable, a SymPy expression or (angles, values), "
-                            f"not {_check.shown(profile)}")
+                            f"not {checks.shown(profile)}")
         return self._by_law(name, "cam", _Follows(profile), {"angle": Measure(f"{cam.name}.angle"), "follower": follower})
 
     def constraint(self, name: str, value: LawLike | Values, *, of: Bindings | None = None) -> Coupling:

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check
-from ..._types import ArrayLike, Bindings, LawLike
+from ..._private import checks
+from ..._private.types import ArrayLike, Bindings, LawLike
 from ...errors import WrongType, WrongValue
 from ..elements.bodies import Body, Particle, Point
 from ..elements.forces import Actuator, Force, Motor, Torque
@@ -137,7 +137,7 @@ class ForceVerbs(Elements):
             raise WrongValue(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()",
                              "user-function")
         if drives == "length" and law.constant is not None:
-            _check.number(law.what, law.constant, above=0)
+            checks.number(law.what, law.constant, above=0)
         return self._add(Actuator(name, first, second, drives, law))
 
     def force(self, name: str, point: Point | Body | str, along: ArrayLike | None = None, *,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ... import _check
-from ..._types import ArrayLike
+from ..._private import checks
+from ..._private.types import ArrayLike
 from ...errors import WrongValue
 from ..elements.bodies import Body, Point
 from ..elements.joints import Joint, Rolling
@@ -72,7 +72,7 @@ class JointVerbs(TableVerbs, SpaceJointVerbs):
             raise WrongValue(f"axle and semiaxes of {name!r} are for mechanisms in space", "wrong-dimension")
         name = self._new_name(name, "joint")
         at = (0.0, 0.0) if at is None else at
-        radius = _check.number(f"radius of {name!r}", radius, above=0)
+        radius = checks.number(f"radius of {name!r}", radius, above=0)
         if normal is None:
             normal = -self.gravity if self.gravity.any() else (0.0, 1.0)
         normal = self._direction(f"normal of {name!r}", normal)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 from ...errors import WrongValue
 from ...systems import autodiff
 
@@ -33,17 +33,17 @@ class PeriodicSpline:
     """
 
     def __init__(self, what: str, angles: Any, values: Any) -> None:
-        self.angles = np.asarray(_check.real(f"angles of {what} must hold", angles), dtype=float)
+        self.angles = np.asarray(checks.real(f"angles of {what} must hold", angles), dtype=float)
         n = self.angles.size
         if self.angles.ndim != 1 or n < 3:
             raise WrongValue(f"angles of {what} must have shape (n,) with n at least 3, not {self.angles.shape}", "shape")
-        self.values = _check.vector(f"values of {what}", values, n)
+        self.values = checks.vector(f"values of {what}", values, n)
         self._drop_closing_point()
         n = self.angles.size
         self._widths = np.diff(self.angles, append=self.angles[0] + PERIOD)
         if not (self._widths > 0).all():
             raise WrongValue(f"angles of {what} must increase and lie within one turn (a point at its end has the value of the "
-                             f"first), not {_check.shown(angles)}", "not-increasing")
+                             f"first), not {checks.shown(angles)}", "not-increasing")
         self._coefficients = self._solve(n)
 
     def _drop_closing_point(self) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 from ...errors import WrongName, WrongType, WrongValue
 from ..elements.bodies import Body, Ground, Link, Particle, Point, place
 from ..elements.forces import Motor
@@ -27,8 +27,8 @@ class Elements:
     def __init__(self, parameters: Any) -> None:
         self.ground = SpaceGround() if self.dimension == 3 else Ground()
         self.ground._register = self._register_point
-        self.parameters = {key: _check.number(f"parameter {key!r}", value)
-                           for key, value in _check.parameters(parameters).items() if _is_identifier(key)}
+        self.parameters = {key: checks.number(f"parameter {key!r}", value)
+                           for key, value in checks.parameters(parameters).items() if _is_identifier(key)}
         self._elements: dict[str, Any] = {"ground": self.ground}
 
     # ---- adding ----
@@ -66,7 +66,7 @@ class Elements:
         if side == "center" and isinstance(body := self._elements.get(owner), Body):
             return body.center
         known = [*self._elements, *(f"{link.name}.{side}" for link in self._of(Link) for side in ("start", "end"))]
-        raise WrongValue(f"{argument} names {value!r}, which is not an element of {self.name!r}; {_check.closest(value, known)}",
+        raise WrongValue(f"{argument} names {value!r}, which is not an element of {self.name!r}; {checks.closest(value, known)}",
                          "wrong-name")
 
     def _is_own(self, element: Any) -> bool:
@@ -75,7 +75,7 @@ class Elements:
     def _body(self, argument: str, value: Any) -> Body:
         """Body of this mechanism, checked."""
         value = self._named(argument, value)
-        _check.instance(argument, value, Body, f"a body of {self.name!r}")
+        checks.instance(argument, value, Body, f"a body of {self.name!r}")
         if not self._is_own(value):
             raise WrongValue(f"{argument} must be a body of {self.name!r}, and {value!r} is not: it belongs to another mechanism",
                              "wrong-element")
@@ -96,7 +96,7 @@ class Elements:
             links = "; a link has points, and its mass may be 0" if value.kind == "rod" else ""
             raise WrongType(f"{argument} must be a point of a body, not the {value.kind} {value.name!r}, a joint{links}",
                             "wrong-element")
-        _check.instance(argument, value, Point, "a point of a body, such as link.end or body.point((x, y))")
+        checks.instance(argument, value, Point, "a point of a body, such as link.end or body.point((x, y))")
         self._body(argument, value.body)
         return value
 
@@ -107,7 +107,7 @@ class Elements:
     def _joint(self, argument: str, value: Any, coordinate: tuple[str, ...]) -> Joint:
         """Joint of this mechanism, checked to have one of these coordinates, "angle" or "displacement"."""
         value = self._named(argument, value)
-        _check.instance(argument, value, Joint, "a joint")
+        checks.instance(argument, value, Joint, "a joint")
         if not self._is_own(value):
             raise WrongValue(f"{argument} must be a joint of {self.name!r}, and {value!r} belongs to another mechanism",
                              "wrong-element")
@@ -163,7 +163,7 @@ class Elements:
 
     def _direction(self, argument: str, value: Any) -> np.ndarray:
         """Direction in the drawing, (dimension,), of length one."""
-        vector = _check.vector(argument, value, self.dimension)
+        vector = checks.vector(argument, value, self.dimension)
         length = np.hypot(*vector) if self.dimension == 2 else np.linalg.norm(vector)
         if not length > 0:
             raise WrongValue(f"{argument} must be a direction in the drawing, and {tuple(map(float, vector))} has length zero",
@@ -181,7 +181,7 @@ class Elements:
                 dynamic.append(measure)
                 continue
             if read is None or len(read.quantities) != 1:
-                known = "" if read else f"; {_check.closest(measure, readable(self._elements[measure.partition('.')[0]]))}"
+                known = "" if read else f"; {checks.closest(measure, readable(self._elements[measure.partition('.')[0]]))}"
                 raise WrongValue(f"{what} must depend on scalar measures of positions and velocities, and {measure!r} is "
                                  f"none{known}", "wrong-measure")
             if read.is_rate and positions:
@@ -196,14 +196,14 @@ class Elements:
         owner = measure.partition(".")[0]
         if owner not in self._elements:
             raise WrongValue(f"{what} names {measure!r}, and there is no {owner!r} in {self.name!r}; "
-                             f"{_check.closest(owner, self._elements)}", "wrong-name")
+                             f"{checks.closest(owner, self._elements)}", "wrong-name")
 
     # ---- access ----
 
     def __getitem__(self, name: str) -> Any:
         """The element of that name."""
         if name not in self._elements:
-            raise WrongName(f"nothing in {self.name} is called {name!r}; {_check.closest(name, self._elements)}", "wrong-name")
+            raise WrongName(f"nothing in {self.name} is called {name!r}; {checks.closest(name, self._elements)}", "wrong-name")
         return self._elements[name]
 
     def _of(self, kind: type | tuple[type, ...]) -> list[Any]:
@@ -237,7 +237,7 @@ ALLOWED = re.compile(r"[A-Za-z0-9_\-]([A-Za-z0-9_\- ]*[A-Za-z0-9_\-])?")
 def checked_name(name: Any, what: str, taken: Iterable[str]) -> str:
     """Name for a new element, checked: valid and unused."""
     if not isinstance(name, str):
-        raise WrongType(f"name of a {what} must be a string, not {_check.shown(name)}")
+        raise WrongType(f"name of a {what} must be a string, not {checks.shown(name)}")
     if not ALLOWED.fullmatch(name):
         raise WrongValue(f"name of a {what} must be of letters, digits, blanks inside, '_' and '-', not {name!r}")
     if name in taken:

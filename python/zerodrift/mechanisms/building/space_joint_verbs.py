@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check
-from ..._gateway.mechanisms.element_tables import three
+from ..._private import checks
+from ..._private.gateway.mechanisms.element_tables import three
 from ...errors import WrongType, WrongValue
 from ..elements.bodies import Body, Point
 from ..elements.frames import perpendicular
@@ -62,9 +62,9 @@ class SpaceJointVerbs(Elements):
         if semiaxes is not None:
             if axle is not None:
                 raise WrongType(f"{name!r} has semiaxes, of an ellipsoid, and no axle", "conflicting-arguments")
-            given = _check.vector(f"semiaxes of {name!r}", semiaxes, 3)
-            return np.eye(3), three(_check.number(f"each of the semiaxes of {name!r}", float(each), above=0) for each in given)
-        radius = _check.number(f"radius of {name!r}", radius, above=0)
+            given = checks.vector(f"semiaxes of {name!r}", semiaxes, 3)
+            return np.eye(3), three(checks.number(f"each of the semiaxes of {name!r}", float(each), above=0) for each in given)
+        radius = checks.number(f"radius of {name!r}", radius, above=0)
         if axle is None:
             return np.eye(3), (radius, radius, radius)
         axle = self._direction(f"axle of {name!r}", axle)
@@ -101,10 +101,10 @@ class SpaceJointVerbs(Elements):
             self._turning(name, "knife edge", second.body)
         frame = np.eye(3) if axis is None else _frame(axis, normal)
         frames = tuple(np.stack([side.body.pose.local_direction(row) for row in frame]) for side in (first, second))
-        damping = _check.number(f"damping of {name!r}", damping, least=0)
+        damping = checks.number(f"damping of {name!r}", damping, least=0)
         made = joint(name, first, second, frames=frames, length=length, damping=damping, cut=checked_cut(name, cut))
         if draws_length(joint.row):
-            _check.number(f"length of {name!r}, as drawn,", made.numbers()["length"], above=0)
+            checks.number(f"length of {name!r}, as drawn,", made.numbers()["length"], above=0)
         return self._add(made)
 
 
@@ -117,5 +117,5 @@ def _frame(axis: np.ndarray, normal: np.ndarray | None) -> np.ndarray:
 def checked_cut(name: str, value: Any) -> bool:
     """Check that `cut` is True or False."""
     if not isinstance(value, bool):
-        raise WrongType(f"cut of {name!r} must be True or False, not {_check.shown(value)}")
+        raise WrongType(f"cut of {name!r} must be True or False, not {checks.shown(value)}")
     return value

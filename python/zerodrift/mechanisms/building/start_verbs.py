@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check
-from ..._types import Values
+from ..._private import checks
+from ..._private.types import Values
 from ...errors import WrongType, WrongValue
 from ..elements.forces import Actuator
 from ..elements.frames import given_rotation
@@ -69,7 +69,7 @@ class StartVerbs(Elements):
         >>> m.start({link.angle: -0.3, "pin.speed": 2.0})
         """
         if equilibrium is not None:
-            self._is_balanced = _check.instance("equilibrium", equilibrium, bool, "True or False")
+            self._is_balanced = checks.instance("equilibrium", equilibrium, bool, "True or False")
         for kept, given, what in ((self._held, held, "held"), (self._wished, wish, "wish")):
             checked = targets(given, what, self.dimension)
             for name, value in checked.items():
@@ -98,7 +98,7 @@ def targets(given: Any, what: str, dimension: int = 2) -> dict[str, Any]:
     if given is None:
         return {}
     if not isinstance(given, Mapping):
-        raise WrongType(f"{what} must be a dict of values by measure, not {_check.shown(given)}")
+        raise WrongType(f"{what} must be a dict of values by measure, not {checks.shown(given)}")
     read = {}
     for measure, value in given.items():
         name = name_of(measure, f"a key of {what}")
@@ -107,6 +107,6 @@ def targets(given: Any, what: str, dimension: int = 2) -> dict[str, Any]:
             if dimension == 3 and name.endswith(".rotation"):
                 value = given_rotation(said, value)
             else:
-                value = _check.vector(said, value, dimension) if np.ndim(value) else _check.number(said, value)
+                value = checks.vector(said, value, dimension) if np.ndim(value) else checks.number(said, value)
         read[name] = value
     return read

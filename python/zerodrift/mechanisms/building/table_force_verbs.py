@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check
-from ..._gateway.mechanisms.element_tables import ElementKind
+from ..._private import checks
+from ..._private.gateway.mechanisms.element_tables import ElementKind
 from ...errors import WrongType, WrongValue
 from ..elements.bodies import Point
 from ..elements.frames import perpendicular
@@ -161,8 +161,8 @@ def _values(word: str, name: str, entry: ElementKind, given: Any) -> dict[str, f
         return {}
     paths = parameters(entry)[word]
     each = np.broadcast_to(given, len(paths)) if np.ndim(given) == 0 and len(paths) > 1 else given
-    numbers = [each] if np.ndim(each) == 0 else _check.vector(f"{word} of {name!r}", each, len(paths)).tolist()
-    return {path: _check.number(f"{path} of {name!r}", number, least=None if word == "angle" else 0)
+    numbers = [each] if np.ndim(each) == 0 else checks.vector(f"{word} of {name!r}", each, len(paths)).tolist()
+    return {path: checks.number(f"{path} of {name!r}", number, least=None if word == "angle" else 0)
             for path, number in zip(paths, numbers, strict=True)}
 
 

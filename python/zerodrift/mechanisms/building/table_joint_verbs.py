@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 from ...errors import WrongType, WrongValue
 from ..elements.frames import perpendicular
 from ..elements.joints import Joint, draws_length, holds_angle, holds_distance
@@ -143,8 +143,8 @@ def _add(m: Elements, joint: type[Joint], name: Any, *, first: Any = None, secon
         axis = m._direction(f"{word} of {name!r}", axis)
     first, second = _sides(m, joint, name, first, second, point, at)
     if length is not None:
-        length = _check.number(f"length of {name!r}", length, above=0)
-    damping = _check.number(f"damping of {name!r}", damping, least=0)
+        length = checks.number(f"length of {name!r}", length, above=0)
+    damping = checks.number(f"damping of {name!r}", damping, least=0)
     if needs_angles(joint):
         m._turning(name, joint.kind, first.body, second.body)
     if damping and joint.coordinate == "angle":
@@ -155,7 +155,7 @@ def _add(m: Elements, joint: type[Joint], name: Any, *, first: Any = None, secon
         axis = owner.pose.local_direction(axis)
     made = joint(name, first, second, axis=axis, length=length, damping=damping, cut=checked_cut(name, cut))
     if joint.row.takes_length:
-        _check.number(f"length of {name!r}, as drawn,", made.numbers()["length"], above=0)
+        checks.number(f"length of {name!r}, as drawn,", made.numbers()["length"], above=0)
     return m._add(made)
 
 
@@ -182,13 +182,13 @@ def _add_in_space(m: Any, joint: type[SpaceJoint], name: Any, *, first: Any = No
         return _add_blade(m, joint, name, point, others.get("along"), others.get("normal"))
     directions = _directions(m, joint, name, others.get(axis_word(joint))) if joint.row.axes else ()
     if length_word(joint) == "pitch":
-        length = _check.number(f"pitch of {name!r}", others.get("pitch"))
+        length = checks.number(f"pitch of {name!r}", others.get("pitch"))
         if not length:
             raise WrongValue(f"pitch of {name!r} must not be 0: take revolute", "out-of-range")
     if holds_distance(joint.row):
         name = m._new_name(name, "joint")
         sides = m._different(name, m._point("first", first), m._point("second", second))
-        length = None if length is None else _check.number(f"length of {name!r}", length, above=0)
+        length = None if length is None else checks.number(f"length of {name!r}", length, above=0)
         return m._fasten(joint.kind, name, *sides, length=length)
     at = at if is_at_point(joint.row) else m._at_origin(name, at, first, second)
     return m._join(joint.kind, name, first, second, at, *directions, length=length, damping=damping, cut=cut)

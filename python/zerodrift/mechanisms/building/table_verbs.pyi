@@ -1,6 +1,6 @@
 """Methods of `Mechanism` made from the core's tables; written by tests/support/stubs.py."""
 
-from ..._types import ArrayLike
+from ..._private.types import ArrayLike
 from ..elements import forces
 from ..elements.bodies import Body, Point
 from ..elements.joints import Joint

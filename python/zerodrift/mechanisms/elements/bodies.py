@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ... import _check
-from ..._types import ArrayLike
+from ..._private import checks
+from ..._private.types import ArrayLike
 from ...errors import WrongAttribute, WrongType
 from . import columns
 from .frames import Pose
@@ -144,7 +144,7 @@ class Body(Fixed):
             raise WrongType(f"a point of {self.name!r} needs one of two: coordinates in its frame, or at=, its place as drawn",
                             "conflicting-arguments")
         size = self.dimension
-        local = _check.vector("local", local, size) if at is None else self.pose.local(place("at", at, size))
+        local = checks.vector("local", local, size) if at is None else self.pose.local(place("at", at, size))
         return self._register(Point(self, local, name))
 
     def properties(self, numbers: Numbers) -> MassProperties:
@@ -277,7 +277,7 @@ class Particle(Body):
 
 def place(argument: str, value: Any, dimension: int = 2) -> np.ndarray:
     """Position in the drawing, (dimension,): coordinates, or the drawn position of a point."""
-    return value.drawn if isinstance(value, Point) else _check.vector(argument, value, dimension)
+    return value.drawn if isinstance(value, Point) else checks.vector(argument, value, dimension)
 
 
 def _as_it_is(point: Point) -> Point:

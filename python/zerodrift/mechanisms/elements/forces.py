@@ -8,8 +8,8 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from ... import _check
-from ..._gateway.mechanisms.element_tables import ElementQuantity
+from ..._private import checks
+from ..._private.gateway.mechanisms.element_tables import ElementQuantity
 from ...errors import WrongValue
 from .bodies import Body, Point
 from .immutable import Fixed, amend
@@ -194,7 +194,7 @@ def driven(drawing: Any, names: Sequence[str], changed: Mapping[str, float]) -> 
     for name in names:
         if name not in known:
             raise WrongValue(f"inputs must name a torque, force or speed of {drawing.name}, not {name!r}{_hint(drawing, name)}; "
-                             f"{_check.closest(name, known) if known else 'it has no motor, actuator or load'}", "wrong-name")
+                             f"{checks.closest(name, known) if known else 'it has no motor, actuator or load'}", "wrong-name")
         element, quantity, path = known[name]
         if element.law.constant is None:
             raise WrongValue(f"input {name!r} must begin with a number: give {element.kind} {element.name!r} one, such as 0.0, "

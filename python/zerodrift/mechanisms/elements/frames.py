@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ... import _check
-from ..._rotations import quaternion_of, rotation_of, turn
+from ..._private import checks
+from ..._private.rotations import quaternion_of, rotation_of, turn
 from ...errors import WrongValue
 
 
@@ -76,15 +76,15 @@ def given_rotation(argument: str, value: Any) -> np.ndarray:
     if value is None:
         return np.eye(3)
     if np.shape(value) == (4,):
-        q = _check.vector(argument, value, 4)
+        q = checks.vector(argument, value, 4)
         length = float(np.sqrt(q @ q))
         if abs(length - 1) > ROTATION:
             raise WrongValue(f"{argument} must be a quaternion of length 1, and {tuple(map(float, q))} has length {length:g}",
                              "geometry")
         return rotation_of(q / length)
     if np.shape(value) != (3, 3):
-        raise WrongValue(f"{argument} must be a (3, 3) matrix or a quaternion (w, x, y, z), not {_check.shown(value)}", "shape")
-    R = _check.vector(argument, np.ravel(value), 9).reshape(3, 3)
+        raise WrongValue(f"{argument} must be a (3, 3) matrix or a quaternion (w, x, y, z), not {checks.shown(value)}", "shape")
+    R = checks.vector(argument, np.ravel(value), 9).reshape(3, 3)
     if np.abs(R.T @ R - np.eye(3)).max() > ROTATION or np.linalg.det(R) < 0:
         raise WrongValue(f"{argument} must be a rotation, its columns right-handed, perpendicular and of length 1", "geometry")
     return rotation_of(quaternion_of(R))        # orthogonal to rounding

@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ..._gateway.mechanisms.plane import JointKind, joint_kinds
+from ..._private.gateway.mechanisms.plane import JointKind, joint_kinds
 from ...errors import WrongAttribute
 from . import columns
 from .bodies import Point

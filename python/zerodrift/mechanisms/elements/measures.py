@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ... import _check
+from ..._private import checks
 from ...errors import WrongType
 
 
@@ -67,7 +67,7 @@ def name_of(measure: Any, argument: str) -> str:
         return measure.name
     if isinstance(measure, str):
         return measure
-    raise WrongType(f"{argument} must be a measure, such as crank.angle, or its name, not {_check.shown(measure)}")
+    raise WrongType(f"{argument} must be a measure, such as crank.angle, or its name, not {checks.shown(measure)}")
 
 
 def scalar(quantity: str, doc: str) -> Measure:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 
 NOT_NEGATIVE = {"mass", "inertia", "stiffness", "damping", "torsion", "torsion_damping"}
 PRODUCTS = (".xy", ".xz", ".yz")        # of inertia: of either sign
@@ -37,10 +37,10 @@ def checked(path: str, value: Any) -> float:
     name = f"parameter {path!r}"
     quantity = path.split(".")[1] if "." in path else ""
     if quantity in NOT_NEGATIVE and not path.endswith(PRODUCTS):
-        return _check.number(name, value, least=0)
+        return checks.number(name, value, least=0)
     if quantity in ("length", "radius"):
-        return _check.number(name, value, above=0)
-    return _check.number(name, value)
+        return checks.number(name, value, above=0)
+    return checks.number(name, value)
 
 
 def is_right(path: str, value: float) -> bool:

@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ... import _check
-from ..._rotations import AXES, is_order
+from ..._private import checks
+from ..._private.rotations import AXES, is_order
 from ...errors import WrongAttribute, WrongValue
 from .bodies import Body, Ground, Link, MassProperties, Particle, Point, _End
 from .drawing import Drawing, inertias_of_bodies
@@ -25,12 +25,12 @@ PATHS = tuple(f"{AXES[i]}{AXES[j]}" for i in range(3) for j in range(i, 3))
 def tensor(argument: str, value: Any) -> np.ndarray:
     """Inertia tensor (3, 3) from a tensor or its diagonal, checked; off-diagonal entries are minus the products of inertia."""
     shape = np.shape(value)
-    if shape == () and _check.number(argument, value) == 0:
+    if shape == () and checks.number(argument, value) == 0:
         return np.zeros((3, 3))
     if shape not in ((3,), (3, 3)):
-        raise WrongValue(f"{argument} must be a tensor (3, 3) or its diagonal (3,), in kg m^2, not {_check.shown(value)}",
+        raise WrongValue(f"{argument} must be a tensor (3, 3) or its diagonal (3,), in kg m^2, not {checks.shown(value)}",
                          "inertia")
-    entries = _check.vector(argument, np.ravel(value), 3 if shape == (3,) else 9)
+    entries = checks.vector(argument, np.ravel(value), 3 if shape == (3,) else 9)
     J = np.diag(entries) if shape == (3,) else entries.reshape(3, 3)
     check_tensor(argument, J)
     return (J + J.T) / 2

@@ -6,10 +6,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..._gateway import Variable
-from ..._gateway.mechanisms.element_tables import three
-from ..._gateway.mechanisms.space import JointKind, joint_kinds
-from ..._rotations import AXES
+from ..._private.gateway import Variable
+from ..._private.gateway.mechanisms.element_tables import three
+from ..._private.gateway.mechanisms.space import JointKind, joint_kinds
+from ..._private.rotations import AXES
 from .bodies import Point
 from .joints import FIRST_TORQUE, PLACE, Joint, class_of
 from .measures import scalar, vector

@@ -6,9 +6,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ..._gateway.mechanisms import plane, space
-from ..._gateway.mechanisms.element_tables import ElementKind, ElementQuantity
-from ..._rotations import AXES
+from ..._private.gateway.mechanisms import plane, space
+from ..._private.gateway.mechanisms.element_tables import ElementKind, ElementQuantity
+from ..._private.rotations import AXES
 from . import columns
 from .bodies import Body, Point
 from .immutable import Fixed

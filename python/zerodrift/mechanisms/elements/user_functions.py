@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 from ...errors import WrongType, WrongValue
 from ...laws.table import recognised
 from ...symbolics.graph.smoothness import is_plain_expression
@@ -50,9 +50,9 @@ class Law:
             self._read_expression(given, bound, list(parameters))
         elif isinstance(given, tuple | list | dict) or np.ndim(given):
             raise WrongType(f"{what} must be a number, a function, an expression of SymPy, or zd.table(t, y) of data, "
-                            f"not {_check.shown(given)}")
+                            f"not {checks.shown(given)}")
         else:
-            self.constant, self._names, self._bound = _check.number(what, given), [], {}
+            self.constant, self._names, self._bound = checks.number(what, given), [], {}
         self.measures = tuple(self._bound.values())
         self.depends_on_time = "t" in self._names
 
@@ -102,7 +102,7 @@ class Law:
         try:
             return self._call(*(known[name] for name in self._names))
         except BaseException as error:
-            _check.tell(error, f"in {self.what}, called at t = {autodiff.value(t):g}")
+            checks.tell(error, f"in {self.what}, called at t = {autodiff.value(t):g}")
             raise
 
     def number(self, t: float, x: Iterable[float], parameters: Mapping[str, Any]) -> float:
@@ -110,7 +110,7 @@ class Law:
         value = self.value(t, x, parameters)
         if type(value) is float and -np.inf < value < np.inf:
             return value
-        return _check.number(f"{self.what} at t = {t:g}", value[()] if isinstance(value, np.ndarray) else value)
+        return checks.number(f"{self.what} at t = {t:g}", value[()] if isinstance(value, np.ndarray) else value)
 
     def jet(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> autodiff.Jet:
         """Value with derivatives, which are zero where the function is constant."""
@@ -124,7 +124,7 @@ class Law:
                             "NumPy functions (np.sin, np.exp, np.sqrt); np.interp, np.floor and % have none. zd.table(t, y) is a "
                             "smooth function through data", "user-function") from error
         value = value[()] if isinstance(value, np.ndarray) else value
-        return value if isinstance(value, autodiff.Jet) else autodiff.Jet(_check.number(self.what, value))
+        return value if isinstance(value, autodiff.Jet) else autodiff.Jet(checks.number(self.what, value))
 
     def _has_value(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> bool:
         """True if an evaluation with floats instead of jets succeeds."""
@@ -243,7 +243,7 @@ def _of(what: str, of: Any) -> Mapping[str, Any]:
     if of is None:
         return {}
     if not isinstance(of, Mapping) or not all(isinstance(name, str) and name.isidentifier() for name in of):
-        raise WrongType(f"of= of {what} must be a dict of measures by the names of its arguments, not {_check.shown(of)}")
+        raise WrongType(f"of= of {what} must be a dict of measures by the names of its arguments, not {checks.shown(of)}")
     return of
 
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ..._gateway.compiled import programs
+from ..._private.gateway.compiled import programs
 from ...symbolics.elimination.steps import Unwritten
 from ...symbolics.emit import program_writer
 from ...symbolics.graph.law_terms import Leaves

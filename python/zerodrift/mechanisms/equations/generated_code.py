@@ -20,15 +20,15 @@ from typing import Any
 
 import numpy as np
 
-from ... import _gateway
-from ..._gateway.compiled import programs
-from ..._gateway.compiled.precise import Precise
-from ..._gateway.mechanisms import space_plans
-from ..._gateway.mechanisms.compiled_terms import WrittenTerms, with_functions
-from ..._gateway.mechanisms.core import MechanismCore
-from ..._gateway.mechanisms.law_inputs import WrittenInputs
-from ..._gateway.mechanisms.plans import plan_of
-from ..._gateway.mechanisms.space import SpaceCore
+from ..._private import gateway
+from ..._private.gateway.compiled import programs
+from ..._private.gateway.compiled.precise import Precise
+from ..._private.gateway.mechanisms import space_plans
+from ..._private.gateway.mechanisms.compiled_terms import WrittenTerms, with_functions
+from ..._private.gateway.mechanisms.core import MechanismCore
+from ..._private.gateway.mechanisms.law_inputs import WrittenInputs
+from ..._private.gateway.mechanisms.plans import plan_of
+from ..._private.gateway.mechanisms.space import SpaceCore
 from ...errors import NoCompilerWarning, UnsuitedIntegrator
 from ...symbolics.compile import cache as kept
 from ...symbolics.compile import compilers, shared_library
@@ -155,19 +155,19 @@ class Written:
         address = terms = None
         if self._library is not None:
             self._library.zd_symbolic_constants(ctypes.c_void_p(numbers.ctypes.data))
-            evaluate = _gateway.address_of(self._library, "zd_symbolic_evaluate")
+            evaluate = gateway.address_of(self._library, "zd_symbolic_evaluate")
             terms = WrittenTerms(evaluate, code.provides, code.timeless, code.scratch)
         if closed_form:
             libraries.append(closed_form.library(vector))
             libraries[1].zd_symbolic_closed_form_constants(ctypes.c_void_p(numbers.ctypes.data))
-            address = _gateway.address_of(libraries[1], CLOSED_FORM)
+            address = gateway.address_of(libraries[1], CLOSED_FORM)
         numbers.flags.writeable = False
-        rates = jacobian and _gateway.address_of(jacobian, JacobianFunctions.symbol)
-        coefficients = series and _gateway.address_of(series, SeriesFunctions.symbol)
+        rates = jacobian and gateway.address_of(jacobian, JacobianFunctions.symbol)
+        coefficients = series and gateway.address_of(series, SeriesFunctions.symbol)
         core = with_functions(self._interpreted, numbers, [*libraries, jacobian, series], terms=terms, closed_forms=address,
                               jacobian=rates, series=coefficients)
         derive = zip(libraries, ("zd_symbolic_constants", f"{CLOSED_FORM}_constants"), strict=False)
-        core.written_inputs = WrittenInputs(numbers, self._index, [_gateway.address_of(*each) for each in derive if each[0]])
+        core.written_inputs = WrittenInputs(numbers, self._index, [gateway.address_of(*each) for each in derive if each[0]])
         return core
 
     def with_jacobian(self, vector: str) -> MechanismCore | SpaceCore:
@@ -192,7 +192,7 @@ class Written:
         if library is None:
             return None
         numbers = _pairs(self._values, self._frames)
-        return Precise(_gateway.address_of(library, PreciseFunctions.symbol), numbers, self._sizes, library)
+        return Precise(gateway.address_of(library, PreciseFunctions.symbol), numbers, self._sizes, library)
 
     def closed_form_functions(self, p0: np.ndarray | None, is_length: np.ndarray) -> ClosedFormFunctions:
         """Closed-form functions, with elimination orders for these numbers and the start p0."""

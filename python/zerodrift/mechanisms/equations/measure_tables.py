@@ -9,9 +9,9 @@ from collections.abc import Callable, Collection, Iterator
 from functools import partial
 from typing import Any, NamedTuple
 
-from ... import _check
-from ..._gateway.mechanisms.core import MechanismCore
-from ..._gateway.mechanisms.element_tables import OutputSpec
+from ..._private import checks
+from ..._private.gateway.mechanisms.core import MechanismCore
+from ..._private.gateway.mechanisms.element_tables import OutputSpec
 from ...errors import WrongValue
 from ..elements.bodies import Body, Link, Point
 from ..elements.forces import Actuator
@@ -40,7 +40,7 @@ def measuring(tables: Tables, only: Collection[str] | None = None) -> MechanismC
     for name in tables.drawing.reactions() if only is None else ():
         if name not in core.tables.reactions:
             raise WrongValue(f"user functions must depend on scalar measures, and {name!r} is none; "
-                             f"{_check.closest(name, [each.name for each in core.measures])}", "wrong-measure")
+                             f"{checks.closest(name, [each.name for each in core.measures])}", "wrong-measure")
     return core
 
 

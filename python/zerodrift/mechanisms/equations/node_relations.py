@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from ..._gateway.mechanisms.element_tables import Relation
+from ..._private.gateway.mechanisms.element_tables import Relation
 from ...symbolics.graph.graph import Graph, Node
 from .function_calls import Laws
 

@@ -11,10 +11,10 @@ from fractions import Fraction
 from math import factorial
 from typing import Any, NamedTuple
 
-from ..._gateway.mechanisms import plans
-from ..._gateway.mechanisms.element_tables import GeneralizedForce, Relation
-from ..._gateway.mechanisms.plane import Quantity
-from ..._gateway.mechanisms.plans import Link, PlanePlan
+from ..._private.gateway.mechanisms import plans
+from ..._private.gateway.mechanisms.element_tables import GeneralizedForce, Relation
+from ..._private.gateway.mechanisms.plane import Quantity
+from ..._private.gateway.mechanisms.plans import Link, PlanePlan
 from ...symbolics.graph.derivation import Derivation, Given
 from ...symbolics.graph.graph import Graph, Node
 from .function_calls import Laws

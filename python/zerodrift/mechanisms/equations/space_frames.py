@@ -6,8 +6,8 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-from ..._gateway.mechanisms.element_tables import Triple, three
-from ..._gateway.mechanisms.space_plans import Link, Way
+from ..._private.gateway.mechanisms.element_tables import Triple, three
+from ..._private.gateway.mechanisms.space_plans import Link, Way
 from ...symbolics.graph.graph import Graph, Node
 
 Vector = Triple[Node]

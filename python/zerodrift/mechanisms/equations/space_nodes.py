@@ -17,9 +17,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from math import pi
 from typing import Any, NamedTuple
 
-from ..._gateway.mechanisms.element_tables import three
-from ..._gateway.mechanisms.space import Quantity
-from ..._gateway.mechanisms.space_plans import Angle, Link, SpacePlan, Way
+from ..._private.gateway.mechanisms.element_tables import three
+from ..._private.gateway.mechanisms.space import Quantity
+from ..._private.gateway.mechanisms.space_plans import Angle, Link, SpacePlan, Way
 from ...symbolics.graph.gradient import Gradient
 from ...symbolics.graph.graph import Node
 from . import nodes

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from ..._gateway import Variable
-from ..._gateway.mechanisms import space
-from ..._gateway.mechanisms.element_tables import ElementQuantity, three
-from ..._gateway.mechanisms.space import AS_DRAWN, Quantity, SpaceCore
-from ..._gateway.mechanisms.space_tree import SpaceTreeCore
-from ..._rotations import AXES, quaternion_of
+from ..._private.gateway import Variable
+from ..._private.gateway.mechanisms import space
+from ..._private.gateway.mechanisms.element_tables import ElementQuantity, three
+from ..._private.gateway.mechanisms.space import AS_DRAWN, Quantity, SpaceCore
+from ..._private.gateway.mechanisms.space_tree import SpaceTreeCore
+from ..._private.rotations import AXES, quaternion_of
 from ..elements.bodies import Body, Particle, Point
 from ..elements.drawing import Drawing
 from ..elements.frames import triple

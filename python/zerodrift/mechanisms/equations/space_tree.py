@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from ..._gateway import Variable
-from ..._rotations import AXES
+from ..._private.gateway import Variable
+from ..._private.rotations import AXES
 from ..elements.bodies import Body
 from ..elements.space_joints import SpaceJoint, speeds
 from .tree import Edge, ends

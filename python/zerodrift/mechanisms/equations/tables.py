@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from ..._gateway import Variable
-from ..._gateway.mechanisms import plane as entries
-from ..._gateway.mechanisms.core import MechanismCore
-from ..._gateway.mechanisms.element_tables import OutputSpec
-from ..._gateway.mechanisms.plane import PlaneCore, Quantity
+from ..._private.gateway import Variable
+from ..._private.gateway.mechanisms import plane as entries
+from ..._private.gateway.mechanisms.core import MechanismCore
+from ..._private.gateway.mechanisms.element_tables import OutputSpec
+from ..._private.gateway.mechanisms.plane import PlaneCore, Quantity
 from ..elements import columns
 from ..elements.bodies import Body, Particle, Point
 from ..elements.drawing import Drawing, Inertias

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..._gateway.mechanisms.plane import Quantity
+from ..._private.gateway.mechanisms.plane import Quantity
 from ...errors import WrongValue
 from ..elements import columns
 from ..elements.bodies import Body, Point

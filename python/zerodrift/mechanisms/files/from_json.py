@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 from ...errors import WrongValue, sentence
 from ..building.table_force_verbs import NEEDED, sides
 from ..building.table_joint_verbs import verb
@@ -69,7 +69,7 @@ def mechanism(make: Callable[..., Any], description: Any, where: str) -> Any:
 def _parts(make: Callable[..., Any], where: str, *, zerodrift: str = WHAT, version: int = VERSION, name: Any, dimension: Any,
            gravity: Any, parameters: Any, elements: Any, start: Any, wish: Any, equilibrium: Any = False) -> Any:
     m = _at(where, make, name, dimension=dimension, gravity=gravity, parameters=parameters)
-    for i, element in enumerate(_at(where, _check.instance, "elements", elements, list, "a list")):
+    for i, element in enumerate(_at(where, checks.instance, "elements", elements, list, "a list")):
         _element(m, element, f"{where}, element {i}")
     _at(f"{where}, start", m.start, start, wish=wish, equilibrium=equilibrium)
     keep_rotations(m, start, wish)
@@ -77,7 +77,7 @@ def _parts(make: Callable[..., Any], where: str, *, zerodrift: str = WHAT, versi
 
 
 def _element(m: Any, description: Any, where: str) -> None:
-    _at(where, _check.instance, "an element", description, dict, "a dict with kind and name")
+    _at(where, checks.instance, "an element", description, dict, "a dict with kind and name")
     kind, name = description.get("kind"), description.get("name")
     made = MADE_IN_SPACE if m.dimension == 3 else MADE
     if not isinstance(kind, str) or kind not in made:
@@ -192,13 +192,13 @@ def _nonholonomic(m: Any, name: str, *, law: Any) -> None:
 
 def _motor(m: Any, name: str, *, joint: Any, drives: Any, law: Any) -> None:
     value, of = law_and_of(law, "law")
-    _check.choice("drives", drives, ("angle", "displacement", "speed", "torque", "force"))
+    checks.choice("drives", drives, ("angle", "displacement", "speed", "torque", "force"))
     m.motor(name, joint, of=of, **{drives: value})
 
 
 def _actuator(m: Any, name: str, *, first: Any, second: Any, drives: Any, law: Any) -> None:
     value, of = law_and_of(law, "law")
-    _check.choice("drives", drives, ("length", "force"))
+    checks.choice("drives", drives, ("length", "force"))
     m.actuator(name, place_from_json(m, first), place_from_json(m, second), of=of, **{drives: value})
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 from ...errors import WrongValue
 from ..elements.bodies import Point
 from ..elements.frames import Pose3, given_rotation
@@ -25,7 +25,7 @@ def keep_rotations(m: Any, start: Any, wish: Any) -> None:
 
 
 def _matrix(what: str, given: Any) -> np.ndarray:
-    return _check.vector(what, np.ravel(given), 9).reshape(3, 3)
+    return checks.vector(what, np.ravel(given), 9).reshape(3, 3)
 
 
 def _rotation(what: str, given: Any) -> np.ndarray:
@@ -53,7 +53,7 @@ def _link(m: Any, name: str, *, start: Any, end: Any, rotation: Any, mass: Any, 
 def frames_from_json(first: Point, second: Point, given: Any) -> tuple[np.ndarray, np.ndarray]:
     """Frames (3, 3) of a joint in both bodies, checked to be equal in the drawing."""
     if not isinstance(given, list) or len(given) != 2:
-        raise WrongValue(f"frames must be two matrices, not {_check.shown(given)}", "unreadable-file")
+        raise WrongValue(f"frames must be two matrices, not {checks.shown(given)}", "unreadable-file")
     frames = _rotation("frames[0]", given[0]), _rotation("frames[1]", given[1])
     one, other = (frame @ side.body.pose.rotation.T       # type: ignore[attr-defined]
                   for frame, side in zip(frames, (first, second), strict=True))
@@ -68,18 +68,18 @@ def _joint(kind: str) -> Callable[..., None]:
              cut: Any = False) -> None:
         one, other = m._different(name, *(m._point("a side", place_from_json(m, side)) for side in (first, second)))
         both = frames_from_json(one, other, frames)
-        if advances(BY_KIND[kind].row) and not _check.number("length", length):
+        if advances(BY_KIND[kind].row) and not checks.number("length", length):
             raise WrongValue("length must not be 0: it is the pitch", "unreadable-file")
         made: SpaceJoint = m._fasten(kind, m._new_name(name, "joint"), one, other, *(both[0][:2] @ one.body.pose.rotation.T),
-                                     length=None if length is None else _check.number("length", length), damping=damping)
-        amend(made, frames=both, cut=_check.instance("cut", cut, bool, "True or False"))
+                                     length=None if length is None else checks.number("length", length), damping=damping)
+        amend(made, frames=both, cut=checks.instance("cut", cut, bool, "True or False"))
     return make
 
 
 def _rolling(m: Any, name: str, *, first: Any, second: Any, frames: Any, semiaxes: Any) -> None:
     plane, centre = point_of_body(m, first), m._point("second", place_from_json(m, second))
     given = tuple(_rotation(f"frames[{i}]", frame) for i, frame in enumerate(frames))
-    a, b, c = (float(each) for each in _check.vector("semiaxes", semiaxes, 3))
+    a, b, c = (float(each) for each in checks.vector("semiaxes", semiaxes, 3))
     axle = centre.body.pose.direction(given[1][0])
     shape = {"radius": b, "axle": axle} if not a else {"radius": a} if a == b == c else {"semiaxes": (a, b, c)}
     joint = m.rolling(name, plane.body, centre, at=plane.drawn, normal=plane.body.pose.direction(given[0][0]), **shape)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 from ...errors import WrongValue
 from ..elements.bodies import Point
 from .expressions_json import from_json
@@ -20,16 +20,16 @@ def place_from_json(m: Any, given: Any) -> Any:
     if isinstance(given, str):
         return m._named("a point", given)
     if not isinstance(given, Mapping) or set(given) != {"body", "local"}:
-        raise WrongValue(f"a point must be a name, or have a body and local coordinates, not {_check.shown(given)}",
+        raise WrongValue(f"a point must be a name, or have a body and local coordinates, not {checks.shown(given)}",
                          "unreadable-file")
     return m._body("body", given["body"]).point(given["local"])
 
 
 def direction_from_json(what: str, given: Any, dimension: int = 2) -> np.ndarray:
     """Direction (dimension,) of length one, as stored."""
-    direction = _check.vector(what, given, dimension)
+    direction = checks.vector(what, given, dimension)
     if abs(np.linalg.norm(direction) - 1) > UNIT:
-        raise WrongValue(f"{what} must have length 1, not {_check.shown(given)}", "unreadable-file")
+        raise WrongValue(f"{what} must have length 1, not {checks.shown(given)}", "unreadable-file")
     return direction
 
 
@@ -38,10 +38,10 @@ def law_and_of(given: Any, what: str) -> tuple[Any, Any]:
     if not isinstance(given, Mapping):
         return given, None
     if set(given) != {"expression", "of"}:
-        raise WrongValue(f"{what} must be a number, or have an expression and of, not {_check.shown(given)}", "unreadable-file")
+        raise WrongValue(f"{what} must be a number, or have an expression and of, not {checks.shown(given)}", "unreadable-file")
     return from_json(given["expression"], what), given["of"]
 
 
 def point_of_body(m: Any, given: Any) -> Point:
     """Point of a description whose body is needed."""
-    return _check.instance("a point", place_from_json(m, given), Point, "a point of a body")
+    return checks.instance("a point", place_from_json(m, given), Point, "a point of a body")

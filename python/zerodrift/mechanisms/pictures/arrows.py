@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 from ..elements.drawing import Drawing
 from ..elements.forces import Actuator, Bushing, Force
 from ..elements.joints import Joint
@@ -26,7 +26,7 @@ def chosen(drawing: Drawing, names: Any) -> list[Any]:
     names = [names] if isinstance(names, str) or not isinstance(names, Iterable) else list(names)
     known = {element.name: element for element in drawing.of(HAVE_FORCES)
              if not isinstance(element, TableForce) or element.row.measure != "torque"}
-    return [known[_check.choice("each of forces", getattr(name, "name", name), list(known))] for name in names]
+    return [known[checks.choice("each of forces", getattr(name, "name", name), list(known))] for name in names]
 
 
 def acting(element: Any, moments: Sequence[Posed] | Sequence[SpacePosed], values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..._rotations import rotation_of
+from ..._private.rotations import rotation_of
 from ..elements.bodies import Body, Point
 from ..elements.drawing import Drawing
 from ..elements.numbers import Numbers

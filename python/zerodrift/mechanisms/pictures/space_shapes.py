@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from ..._rotations import rotation_of
+from ..._private.rotations import rotation_of
 from ...systems.shapes import Shape
 from ..elements.bodies import Body, Link, Particle, Point
 from ..elements.drawing import Drawing

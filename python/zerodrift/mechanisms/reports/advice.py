@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..._gateway import Variable
+from ..._private.gateway import Variable
 from ...systems.measure_values import Watching
 from ..assembly import space_advice
 from ..assembly.nudge import OTHERWISE

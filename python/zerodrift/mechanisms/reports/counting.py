@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..._gateway import Variable
-from ..._gateway.operations import nearest_velocities, redundant_rows
+from ..._private.gateway import Variable
+from ..._private.gateway.operations import nearest_velocities, redundant_rows
 from ...errors import InconsistentStart
 from ..assembly import space_advice
 from ..assembly.assembly import Assembly, is_of_many

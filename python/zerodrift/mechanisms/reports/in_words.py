@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..._gateway.mechanisms.assembly import CoreAssembly
+from ..._private.gateway.mechanisms.assembly import CoreAssembly
 from ...errors import WrongType, WrongValue, ZerodriftError, sentence
 from ...symbolics.compile import compilers
 from ...symbolics.compile.closed_form_library import NO_COMPILER

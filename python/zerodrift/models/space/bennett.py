@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 from ...errors import WrongValue
 from ...mechanisms.elements.frames import about
 from ...mechanisms.mechanism import Mechanism
@@ -62,7 +62,7 @@ def bennett(*, first_length: float = 0.3, first_twist: float = 0.5, second_twist
     <Mechanism bennett: space, 3 bodies, 4 joints; ...>
      freedom 1 (Gruebler -2); ...
     """
-    a, alpha, beta = _check.number("first_length", first_length, above=0), first_twist, second_twist
+    a, alpha, beta = checks.number("first_length", first_length, above=0), first_twist, second_twist
     if not (0 < alpha < np.pi and 0 < beta < np.pi and abs(np.sin((beta - alpha) / 2)) > 1e-6):
         raise WrongValue("first_twist and second_twist must be two different angles between 0 and pi, "
                          f"not {alpha:g} and {beta:g}", "geometry")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 from ...mechanisms.mechanism import Mechanism
 from .._arguments import checked
 
@@ -50,8 +50,8 @@ def chain(links: int = 1000, *, length: float = 10.0, mass: float = 10.0, inclin
     >>> bool(abs(sol.position_violation).max() < 1e-9)
     True
     """
-    n = _check.count("links", links, least=1)
-    each = _check.number("length", length, above=0) / n
+    n = checks.count("links", links, least=1)
+    each = checks.number("length", length, above=0) / n
     turned = 2 * np.pi * coils * np.arange(n) / n
     level, down = each * np.cos(incline), np.full(n, -each * np.sin(incline))
     along = np.stack([level * np.cos(turned), level * np.sin(turned), down], axis=1)

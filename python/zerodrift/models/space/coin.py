@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 from ...errors import WrongValue
 from ...mechanisms.elements.frames import about
 from ...mechanisms.mechanism import Mechanism
@@ -55,7 +55,7 @@ def coin(*, radius: float = 0.012, mass: float = 7.5e-3, incline: float = 0.3, d
     >>> bool(abs(sol["coin.position"] - sol["coin.position"][0]).max() < 1e-9)
     True
     """
-    r = _check.number("radius", radius, above=0)
+    r = checks.number("radius", radius, above=0)
     if not 0 < incline < np.pi / 2:
         raise WrongValue(f"incline must be more than 0 and less than a right angle, {np.pi / 2:g}, not {incline:g}",
                          "out-of-range")

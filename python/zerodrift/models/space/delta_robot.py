@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 from ...errors import WrongValue
 from ...mechanisms.mechanism import Mechanism
 from .._arguments import checked
@@ -64,7 +64,7 @@ def delta_robot(*, base_radius: float = 0.2, platform_radius: float = 0.05, arm:
     """
     lengths = {"base_radius": base_radius, "platform_radius": platform_radius, "arm": arm, "forearm_length": forearm_length,
                "half_width": half_width}
-    R, r, L, rod, w = (_check.number(name, length, above=0) for name, length in lengths.items())
+    R, r, L, rod, w = (checks.number(name, length, above=0) for name, length in lengths.items())
     aside = R + L * np.cos(angle) - r
     if not abs(aside) < rod:
         raise WrongValue(f"forearm_length must be more than {abs(aside):g} m to reach the platform, not {rod:g}", "geometry")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 from ...errors import WrongValue
 from ...mechanisms.elements.frames import about
 from ...mechanisms.mechanism import Mechanism
@@ -59,7 +59,7 @@ def double_cardan(*, bend: float = 0.5, last_bend: float | None = None, phase: f
     >>> bool(abs(sol["bearing out.angle_speed"] - 10.0).max() < 1e-9)
     True
     """
-    length, last_bend = _check.number("length", length, above=0), -bend if last_bend is None else last_bend
+    length, last_bend = checks.number("length", length, above=0), -bend if last_bend is None else last_bend
     for name, angle in (("bend", bend), ("last_bend", last_bend)):
         if not abs(angle) < np.pi / 2:
             raise WrongValue(f"{name} must be less than a right angle, {np.pi / 2:g}, not {angle:g}", "out-of-range")

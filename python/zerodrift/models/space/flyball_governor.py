@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 from ...errors import WrongValue
 from ...mechanisms.mechanism import Mechanism
 from .._arguments import checked
@@ -66,7 +66,7 @@ def flyball_governor(*, arm: float = 0.25, ball_mass: float = 2.0, ball_radius: 
     >>> bool(abs(sol["slide.displacement"]).max() < 1e-9)
     True
     """
-    arm, radius = _check.number("arm", arm, above=0), _check.number("ball_radius", ball_radius, above=0)
+    arm, radius = checks.number("arm", arm, above=0), checks.number("ball_radius", ball_radius, above=0)
     if not ball_mass * arm * speed**2 > (ball_mass + sleeve_mass) * gravity:
         least = np.sqrt(max((ball_mass + sleeve_mass) * gravity, 0.0) / (ball_mass * arm)) if ball_mass else np.inf
         raise WrongValue(f"speed must be more than {least:g} rad/s for the balls to fly out, not {speed:g}", "out-of-range")

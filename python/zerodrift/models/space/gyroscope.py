@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 from ...errors import WrongValue
 from ...mechanisms.mechanism import Mechanism
 from .._arguments import checked
@@ -65,7 +65,7 @@ def gyroscope(*, incline: float = 1.0, spin: float = 200.0, axial_inertia: float
     >>> bool(abs(sol["trunnion.angle"]).max() < 1e-6)
     True
     """
-    arm = _check.number("arm", arm, least=0)
+    arm = checks.number("arm", arm, least=0)
     m = Mechanism("gyroscope", dimension=3, gravity=(0, 0, -gravity))
     axle = np.array([0.0, np.sin(incline), np.cos(incline)])
     turned = np.stack([(1.0, 0.0, 0.0), axle, np.cross((1, 0, 0), axle)], axis=1)

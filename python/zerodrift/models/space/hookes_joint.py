@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 from ...errors import WrongValue
 from ...mechanisms.mechanism import Mechanism
 from .._arguments import checked
@@ -56,7 +56,7 @@ def hookes_joint(*, bend: float = 0.6, length: float = 0.5, mass: float = 1.0, l
     >>> round(float(sol["bearing out.angle_speed"].max()), 3)
     11.395
     """
-    length = _check.number("length", length, above=0)
+    length = checks.number("length", length, above=0)
     if not abs(bend) < np.pi / 2:
         raise WrongValue(f"bend must be less than a right angle, {np.pi / 2:g}, not {bend:g}", "out-of-range")
     m = Mechanism("hookes_joint", dimension=3)

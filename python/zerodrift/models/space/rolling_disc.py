@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 from ...errors import WrongValue
 from ...mechanisms.elements.frames import about
 from ...mechanisms.mechanism import Mechanism
@@ -63,7 +63,7 @@ def rolling_disc(*, radius: float = 0.5, mass: float = 1.0, lean: float = 0.4, t
     >>> bool(abs(height - height[0]).max() < 1e-8)
     True
     """
-    r, m = _check.number("radius", radius, above=0), Mechanism("rolling_disc", dimension=3, gravity=(0, 0, -gravity))
+    r, m = checks.number("radius", radius, above=0), Mechanism("rolling_disc", dimension=3, gravity=(0, 0, -gravity))
     c, s = np.sin(lean), np.cos(lean)       # of the angle between axle and vertical
     if not abs(lean) < np.pi / 2 - 1e-6:
         raise WrongValue(f"lean must be less than a right angle, {np.pi / 2:g}, to both sides, not {lean:g}", "out-of-range")

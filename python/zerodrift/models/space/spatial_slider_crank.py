@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 from ...errors import WrongValue
 from ...mechanisms.mechanism import Mechanism
 from .._arguments import checked
@@ -60,7 +60,7 @@ def spatial_slider_crank(*, crank: float = 0.08, rod: float = 0.3, offset: float
     >>> bool(abs(sol["slider.position.x"] - x).max() < 1e-9)
     True
     """
-    crank, rod = _check.number("crank", crank, above=0), _check.number("rod", rod, above=0)
+    crank, rod = checks.number("crank", crank, above=0), checks.number("rod", rod, above=0)
     reach = np.hypot(offset, height) + crank
     if not 0 < reach < rod:
         raise WrongValue(f"rod must be longer than {reach:g} m, which the crank reaches from the slider's line, not {rod:g}",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ... import _check
+from ..._private import checks
 from ...mechanisms.mechanism import Mechanism
 from .._arguments import checked
 from .._swing import swing_from
@@ -54,8 +54,8 @@ def stewart_platform(*, base_radius: float = 1.0, platform_radius: float = 0.6, 
     >>> bool(abs(sol.position_violation).max() < 1e-11)
     True
     """
-    base_radius = _check.number("base_radius", base_radius, above=0)
-    platform_radius = _check.number("platform_radius", platform_radius, above=0)
+    base_radius = checks.number("base_radius", base_radius, above=0)
+    platform_radius = checks.number("platform_radius", platform_radius, above=0)
     m = Mechanism("stewart_platform", dimension=3, gravity=(0, 0, -gravity))
     feet, heads = _circle(base_radius, gap, 0.0, 0.0), _circle(platform_radius, gap, np.pi / 3, height)
     heads = np.roll(heads, 1, axis=0)       # so that each leg goes to the nearer of two

@@ -8,9 +8,9 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from ... import _check, _gateway
-from ..._gateway.known_events import Reading
-from ..._types import Bindings, Expression, MeasureLike
+from ..._private import checks, gateway
+from ..._private.gateway.known_events import Reading
+from ..._private.types import Bindings, Expression, MeasureLike
 from ...errors import WrongType, WrongValue
 from ...systems.base import BaseSystem
 
@@ -81,7 +81,7 @@ class Event:
 
     def watched(self, name: str, system: BaseSystem) -> Watched:
         """The event, checked for a system; error messages call it `name`, such as ``events[1]``."""
-        level, function, known = _check.number(f"value of {name}", self.value), None, None
+        level, function, known = checks.number(f"value of {name}", self.value), None, None
         if hasattr(self.what, "free_symbols"):
             function, known = _expression(name, self.what, system, dict(self.of or {}), level)
         elif callable(self.what):
@@ -90,14 +90,14 @@ class Event:
             known = _called(bound, level)
         elif self.of:
             raise WrongValue(f"of must be left out of {name}: it binds measures to names in a function or an expression, and "
-                             f"{_check.shown(self.what)} is a measure", "conflicting-arguments")
+                             f"{checks.shown(self.what)} is a measure", "conflicting-arguments")
         else:
-            known = _gateway.KnownEvent((_reading(name, self.what, system),), level)
+            known = gateway.KnownEvent((_reading(name, self.what, system),), level)
         return _watched(name, function, self.direction, self.terminal, known)
 
 
 def _expression(name: str, what: Any, system: BaseSystem, of: dict[str, Any],
-                level: float) -> tuple[Callable[..., float] | None, _gateway.KnownEvent | None]:
+                level: float) -> tuple[Callable[..., float] | None, gateway.KnownEvent | None]:
     """The function that an expression is: one that the core knows, or else one of Python."""
     from . import expressions  # slow to import, as SymPy is
 
@@ -106,12 +106,12 @@ def _expression(name: str, what: Any, system: BaseSystem, of: dict[str, Any],
     if program is None:
         value = expressions.in_python(found)
         return lambda t, p, v, x: value(*x) - level, _called(found.readings, level)
-    return None, _gateway.KnownEvent(tuple(program[1]), level, program[0], found.parameters)
+    return None, gateway.KnownEvent(tuple(program[1]), level, program[0], found.parameters)
 
 
-def _called(readings: list[Reading], level: float) -> _gateway.KnownEvent | None:
+def _called(readings: list[Reading], level: float) -> gateway.KnownEvent | None:
     """Measures that the core reads for a function in Python; None: none."""
-    return _gateway.KnownEvent(tuple(readings), level, is_called=True) if readings else None
+    return gateway.KnownEvent(tuple(readings), level, is_called=True) if readings else None
 
 
 class _Called:
@@ -121,11 +121,11 @@ class _Called:
         from ...systems.user_callables import arguments  # slow to import
 
         parameters = {key: value for key, value in system.parameters.items() if key.isidentifier()}
-        names = arguments(name, function, [*_check.STATE, *parameters, *bound])
+        names = arguments(name, function, [*checks.STATE, *parameters, *bound])
         self._function, self._level = function, level
         self._fixed = {key: parameters[key] for key in names if key in parameters and key not in bound}
         self._read = {key: i for i, key in enumerate(bound) if key in names}
-        self._state = [key for key in names if key in _check.STATE]
+        self._state = [key for key in names if key in checks.STATE]
 
     def __call__(self, t: float, p: np.ndarray, v: np.ndarray, x: Sequence[float]) -> float:
         state = {"t": t, "p": p, "v": v}
@@ -137,7 +137,7 @@ def _reading(what: str, measure: Any, system: BaseSystem) -> Reading:
     """Description of a scalar measure by which the core evaluates it."""
     name = getattr(measure, "name", measure)
     if not isinstance(name, str):
-        raise WrongType(f"{what} must be a measure, the name of one, an expression or a callable, not {_check.shown(measure)}")
+        raise WrongType(f"{what} must be a measure, the name of one, an expression or a callable, not {checks.shown(measure)}")
     return system._reading(name, what, is_dynamic=True)
 
 
@@ -148,7 +148,7 @@ class Watched(NamedTuple):
     function: Callable[..., Any] | None     # float of (t, p, v, x), x as `known` has it; None if the core evaluates the event
     direction: int
     terminal: int
-    known: _gateway.KnownEvent | None   # what the core reads, or None
+    known: gateway.KnownEvent | None   # what the core reads, or None
 
     def value(self, t: float, p: np.ndarray, v: np.ndarray, x: Sequence[float]) -> float:
         """Value of the event function, checked to be a finite number."""
@@ -156,11 +156,11 @@ class Watched(NamedTuple):
             assert self.function
             value = self.function(t, p, v, x)
         except BaseException as error:
-            _check.tell(error, f"in {self.name}, called at t = {t:g}")
+            checks.tell(error, f"in {self.name}, called at t = {t:g}")
             raise
         if type(value) is float and abs(value) < np.inf:
             return value
-        return _check.number(f"value of {self.name} at t = {t:g}", value)
+        return checks.number(f"value of {self.name} at t = {t:g}", value)
 
 
 def events(given: Any, system: BaseSystem) -> tuple[Watched, ...] | None:
@@ -182,10 +182,10 @@ def _event(name: str, given: Any, system: BaseSystem) -> Watched:
     return _watched(name, lambda t, p, v, x: given(t, p, v), getattr(given, "direction", 0), getattr(given, "terminal", False))
 
 
-def _watched(name: str, function: Any, direction: Any, terminal: Any, known: _gateway.KnownEvent | None = None) -> Watched:
+def _watched(name: str, function: Any, direction: Any, terminal: Any, known: gateway.KnownEvent | None = None) -> Watched:
     """An event, checked."""
-    if _check.number(f"{name}.direction", direction) not in (-1, 0, 1):
+    if checks.number(f"{name}.direction", direction) not in (-1, 0, 1):
         raise WrongValue(f"{name}.direction must be -1, 0 or 1, not {direction!r}", "unknown-choice")
     if not isinstance(terminal, bool | np.bool_):
-        _check.count(f"{name}.terminal, where it is not True or False,", terminal, least=0)
+        checks.count(f"{name}.terminal, where it is not True or False,", terminal, least=0)
     return Watched(name, function, int(direction), int(terminal), known)

@@ -7,9 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ... import _gateway
-from ..._gateway.compiled import programs
-from ..._gateway.known_events import NUMBER, TIME, VELOCITY, Reading
+from ..._private import gateway
+from ..._private.gateway.compiled import programs
+from ..._private.gateway.known_events import NUMBER, TIME, VELOCITY, Reading
 from ...errors import WrongValue
 from ...symbolics.elimination.steps import Unwritten
 from ...symbolics.emit import program_writer
@@ -67,7 +67,7 @@ def _rate(what: str, derivative: Any, system: BaseSystem) -> Reading:
     """Velocity that is the derivative of a coordinate."""
     coordinates = [variable.name for variable in system.coordinates]
     name = str(getattr(derivative.expr, "func", derivative.expr))
-    has_rates = core_of(system).provides & _gateway.TERMS["A"].bit
+    has_rates = core_of(system).provides & gateway.TERMS["A"].bit
     if has_rates or derivative.derivative_count != 1 or name not in coordinates:
         raise WrongValue(f"{what} has {derivative}, which must be a velocity of {system.name}: "
                          f"{', '.join(variable.name for variable in system.velocities)}", "expression")

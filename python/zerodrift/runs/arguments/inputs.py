@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 
-from ... import _check, _gateway
+from ..._private import checks, gateway
 from ...errors import WrongName, WrongType, WrongValue
 from ...systems.base import BaseSystem
 from ...systems.defaults import WithInputs
@@ -18,7 +18,7 @@ def refuse_unknown(system: BaseSystem, name: Any, places: Mapping[str, Any]) -> 
     """Refuse a name that a run cannot set; `places`: its inputs."""
     if name in system._names_of_inputs():
         raise WrongName(f"{name!r} must be declared as an input before it can be set: inputs=[{name!r}]", "wrong-name")
-    known = f"; {_check.closest(name, places)}" if places else ""
+    known = f"; {checks.closest(name, places)}" if places else ""
     raise WrongName(f"a name to set must be that of an input, not {name!r}{known}", "wrong-name")
 
 
@@ -29,7 +29,7 @@ class Declared(NamedTuple):
     lower: np.ndarray       # (k,) limits
     upper: np.ndarray
     of: WithInputs          # the system that has them
-    follows: _gateway.Following     # way in which speeds reach their inputs
+    follows: gateway.Following     # way in which speeds reach their inputs
 
     def places(self) -> dict[str, int | np.ndarray]:
         """Index of each input by its name, and indices of each array all of whose entries are inputs, in its shape."""
@@ -38,12 +38,12 @@ class Declared(NamedTuple):
         whole = {name: entries for name, entries in arrays if index.keys() >= set(entries.ravel().tolist())}
         return index | {name: np.vectorize(index.get, otypes=[int])(entries) for name, entries in whole.items()}
 
-    def bound(self, *cores: Any, values: np.ndarray | None = None) -> tuple[_gateway.Inputs, list[Any]]:
+    def bound(self, *cores: Any, values: np.ndarray | None = None) -> tuple[gateway.Inputs, list[Any]]:
         """Inputs of one run, in given memory, and its own systems in the place of these; None stays."""
         found = [None if core is None else self.of.bound(core, self.names) for core in cores]
         if values is not None:
             values[:] = self.of.initial
-        inputs = _gateway.Inputs(self.names, np.array(self.of.initial), self.lower, self.upper, [each for each in found if each],
+        inputs = gateway.Inputs(self.names, np.array(self.of.initial), self.lower, self.upper, [each for each in found if each],
                                  values, self.follows)
         return inputs, [each and each.core for each in found]
 
@@ -62,22 +62,22 @@ class Speeds(NamedTuple):
 FOLLOWED = Speeds()
 
 
-def following(speeds: Speeds, names: Sequence[str], step: float | None) -> _gateway.Following:
+def following(speeds: Speeds, names: Sequence[str], step: float | None) -> gateway.Following:
     """Check the arguments `hold` and `ramp` of a run with inputs of these names."""
-    jumps = _check.instance("hold", speeds.hold, bool, "True or False")
-    ramp = None if speeds.ramp is None else _check.number("ramp", speeds.ramp, above=0)
+    jumps = checks.instance("hold", speeds.hold, bool, "True or False")
+    ramp = None if speeds.ramp is None else checks.number("ramp", speeds.ramp, above=0)
     first = next((name for name in names if name.endswith(".speed")), None)
     if first is None:
         if jumps or ramp is not None:
             raise WrongValue("hold and ramp must be left out if no input is a speed", "conflicting-arguments")
-        return _gateway.Following()
+        return gateway.Following()
     if ramp is not None and (jumps or step is not None):
         raise WrongValue("ramp must be left out with hold=True, by which a speed jumps, and with fixed steps, over one of which "
                          "it is followed", "conflicting-arguments")
     if step is None and ramp is None and not jumps:
         raise WrongValue(f"input {first!r} must be followed over a given time in adaptive steps, ramp=, or over one fixed step, "
                          "step=, or jump, hold=True", "step-size")
-    return _gateway.Following(jumps, ramp or 0.0)
+    return gateway.Following(jumps, ramp or 0.0)
 
 
 def declared(given: Any, system: BaseSystem, speeds: Speeds, step: float | None) -> Declared | None:
@@ -97,7 +97,7 @@ def declared(given: Any, system: BaseSystem, speeds: Speeds, step: float | None)
 def _names(given: Any) -> Sequence[Any]:
     names = (given,) if isinstance(given, str) or hasattr(given, "name") else given
     if not isinstance(names, Sequence):
-        raise WrongType(f"inputs must be names, or a dict of names to limits, not {_check.shown(given)}")
+        raise WrongType(f"inputs must be names, or a dict of names to limits, not {checks.shown(given)}")
     listed = list(map(_name, names))
     _check_once(listed)
     return listed
@@ -122,16 +122,16 @@ def _entries(limits: Mapping[Any, Any], system: BaseSystem) -> tuple[tuple[str, 
 def _name(given: Any) -> str:
     name = getattr(given, "name", given)
     if not isinstance(name, str):
-        raise WrongType(f"an input must be a measure or its name, not {_check.shown(given)}")
+        raise WrongType(f"an input must be a measure or its name, not {checks.shown(given)}")
     return name
 
 
 def _limits(name: str, given: Any) -> tuple[float, float]:
     if given is None:
         return -math.inf, math.inf
-    bounds = _check.real(f"limits of input {name!r} must be (lower, upper)", given)
+    bounds = checks.real(f"limits of input {name!r} must be (lower, upper)", given)
     if bounds.shape != (2,) or not bounds[0] <= bounds[1]:
-        raise WrongValue(f"limits of input {name!r} must be (lower, upper), not {_check.shown(given)}", "shape")
+        raise WrongValue(f"limits of input {name!r} must be (lower, upper), not {checks.shown(given)}", "shape")
     return float(bounds[0]), float(bounds[1])
 
 

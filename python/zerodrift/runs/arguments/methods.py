@@ -10,8 +10,8 @@ import functools
 import textwrap
 from typing import Any, ClassVar
 
-from ... import _check, _gateway
-from ..._types import Correction, Formulation, Integrator, SystemLike
+from ..._private import checks, gateway
+from ..._private.types import Correction, Formulation, Integrator, SystemLike
 from ...errors import WrongValue
 from ...systems.base import BaseSystem, core_of, system_of
 
@@ -34,7 +34,7 @@ class RowSettings:
     def __post_init__(self) -> None:
         for parameter in self.card.parameters:      # as Python's own numbers, so that equal settings are saved alike
             object.__setattr__(self, parameter.name, _checked(parameter, getattr(self, parameter.name)))
-        if clash := _gateway.clash(self.table, self.card.name, self._values()):
+        if clash := gateway.clash(self.table, self.card.name, self._values()):
             raise WrongValue(clash, "conflicting-arguments")
 
     def _values(self) -> list[float]:
@@ -42,30 +42,30 @@ class RowSettings:
         return [number for parameter in self.card.parameters for number in _numbers(parameter, getattr(self, parameter.name))]
 
 
-def _checked(parameter: _gateway.Parameter, value: Any) -> Any:
+def _checked(parameter: gateway.Parameter, value: Any) -> Any:
     """Check a value by the rule of its parameter."""
     name = parameter.name
     match parameter.rule:
         case "choice":
-            return _check.choice(name, value, parameter.words)
+            return checks.choice(name, value, parameter.words)
         case "count":
-            return _check.count(name, value)
+            return checks.count(name, value)
         case "switch":
-            return _check.instance(name, value, bool, "True or False")
+            return checks.instance(name, value, bool, "True or False")
     above, least = (0 if parameter.rule == rule else None for rule in ("positive", "not negative"))
     if parameter.size == 1:
-        return _check.number(name, value, above=above, least=least)
-    values = _check.vector(name, value, parameter.size)
-    return tuple(_check.number(f"{name}[{i}]", each, above=above, least=least) for i, each in enumerate(values))
+        return checks.number(name, value, above=above, least=least)
+    values = checks.vector(name, value, parameter.size)
+    return tuple(checks.number(f"{name}[{i}]", each, above=above, least=least) for i, each in enumerate(values))
 
 
-def _numbers(parameter: _gateway.Parameter, value: Any) -> tuple[float, ...]:
+def _numbers(parameter: gateway.Parameter, value: Any) -> tuple[float, ...]:
     if parameter.rule == "choice":
         return (float(parameter.words.index(value)),)
     return tuple(map(float, value)) if parameter.size > 1 else (float(value),)
 
 
-def _initial(parameter: _gateway.Parameter) -> Any:
+def _initial(parameter: gateway.Parameter) -> Any:
     """Default value of a parameter, as a user would write it."""
     assert parameter.initial      # as no parameter of a method is derived from others
     first = parameter.initial[0]
@@ -79,7 +79,7 @@ def _initial(parameter: _gateway.Parameter) -> Any:
     return first if parameter.size == 1 else parameter.initial
 
 
-class Row(_gateway.Card):
+class Row(gateway.Card):
     """A formulation, integrator or correction; it prints as a page.
 
     Attributes
@@ -113,7 +113,7 @@ class Row(_gateway.Card):
         return "\n".join([*lines, "", *_paragraph(_source(self))]).rstrip()
 
 
-def _source(card: _gateway.Card) -> str:
+def _source(card: gateway.Card) -> str:
     return f"Source: {card.equations}" + (f"; {card.reference}." if card.reference else ".")
 
 
@@ -122,7 +122,7 @@ def _paragraph(text: str, indent: str = "  ") -> list[str]:
     return [*lines, ""] if text else []
 
 
-def _kind(parameter: _gateway.Parameter) -> str:
+def _kind(parameter: gateway.Parameter) -> str:
     """Name of a parameter, its type, shape, unit and range."""
     if parameter.rule == "choice":
         return f"{parameter.name} : {{{', '.join(map(repr, parameter.words))}}}"
@@ -140,7 +140,7 @@ class CardTable(dict[Any, Row]):
         return "\n".join(f"{card.name:{width}}  {card.equations:24}  {card.summary}" for card in self.values())
 
 
-TABLES = {table: CardTable({card.name: Row(*card) for card in _gateway.cards(table)})
+TABLES = {table: CardTable({card.name: Row(*card) for card in gateway.cards(table)})
           for table in ("formulations", "integrators", "corrections")}
 
 
@@ -234,13 +234,13 @@ def integrators(system: SystemLike | None = None) -> dict[Integrator, Row]:
     made = system_of(system)
     core = core_of(made)
     return CardTable({name: card for row, (name, card) in enumerate(table.items())
-                      if core.suits(row) or (_gateway.row_takes_series(row) and made._brings_series)})
+                      if core.suits(row) or (gateway.row_takes_series(row) and made._brings_series)})
 
 
 def evaluating_integrators(system: BaseSystem) -> dict[Integrator, Row]:
     """Integrators that suit a system and need only its terms, no Taylor coefficients."""
     return CardTable({name: card for row, (name, card) in enumerate(TABLES["integrators"].items())
-                      if core_of(system).suits(row) and not _gateway.row_takes_series(row)})
+                      if core_of(system).suits(row) and not gateway.row_takes_series(row)})
 
 
 def corrections() -> dict[Correction, Row]:
@@ -261,7 +261,7 @@ def name_of(table: str, value: Any) -> Any:
     """Name of a method that an argument selects by its name or by its settings."""
     if isinstance(value, RowSettings) and value.table == table:
         return value.card.name
-    return _check.choice(table.removesuffix("s"), value, TABLES[table])
+    return checks.choice(table.removesuffix("s"), value, TABLES[table])
 
 
 NUMBERS = {table: {name: number for number, name in enumerate(cards)} for table, cards in TABLES.items()}

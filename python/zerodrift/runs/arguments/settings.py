@@ -13,8 +13,8 @@ from typing import Any, Literal, NamedTuple, TypeVar
 
 import numpy as np
 
-from ... import _check, _gateway
-from ..._types import ArrayLike, Correction, Formulation, Integrator, StabilizationName, VectorUnit
+from ..._private import checks, gateway
+from ..._private.types import ArrayLike, Correction, Formulation, Integrator, StabilizationName, VectorUnit
 from ...errors import WrongType, WrongValue
 from ...systems.base import BaseSystem, core_of
 from . import methods
@@ -26,7 +26,7 @@ STABILIZATIONS = tuple(name for name, argument in ARGUMENTS.items() if argument 
 Stabilization = RowSettings | None
 # Default methods.
 CHOOSING = "dop853"     # integrator if neither integrator nor step is given
-FORMULATION, INTEGRATOR, STABILIZATION = map(_gateway.default, ("formulations", "integrators", "corrections"))
+FORMULATION, INTEGRATOR, STABILIZATION = map(gateway.default, ("formulations", "integrators", "corrections"))
 
 
 def _are_settings(value: Any, *corrections: str) -> bool:
@@ -39,7 +39,7 @@ def stabilization(value: Any) -> Stabilization:
     if value is None or _are_settings(value, *STABILIZATIONS):
         return value
     if isinstance(value, str):
-        return CORRECTIONS[_check.choice("stabilization", value, STABILIZATIONS)].settings()
+        return CORRECTIONS[checks.choice("stabilization", value, STABILIZATIONS)].settings()
     raise WrongType(f"stabilization must be None, {', '.join(map(repr, STABILIZATIONS))}, zd.Projection(...) "
                     f"or zd.Baumgarte(...), not {value!r}")
 
@@ -67,7 +67,7 @@ def _one_correction(value: Any) -> RowSettings:
     if isinstance(value, RowSettings) and value.table == "corrections":
         return value
     if isinstance(value, str):
-        return CORRECTIONS[_check.choice("correction", value, CORRECTIONS)].settings()
+        return CORRECTIONS[checks.choice("correction", value, CORRECTIONS)].settings()
     raise WrongType(f"correction must be names or settings of zd.corrections(), not {value!r}")
 
 
@@ -81,7 +81,7 @@ ON_SINGULAR = ("stop", "continue")
 
 def on_singular_row(value: Any) -> int:
     """Number that the core uses for a value of the argument `on_singular`."""
-    return ON_SINGULAR.index(_check.choice("on_singular", value, ON_SINGULAR))
+    return ON_SINGULAR.index(checks.choice("on_singular", value, ON_SINGULAR))
 
 
 # ---- all arguments of `simulate` ----
@@ -138,7 +138,7 @@ def known(function: str, step: Any, t_eval: Any, /, **settings: Any) -> Argument
     names = list(DEFAULTS)[2:]
     for name in settings:
         if name not in names:
-            raise WrongType(f"{function} has no setting {name!r}; {_check.closest(name, names)}", "wrong-name")
+            raise WrongType(f"{function} has no setting {name!r}; {checks.closest(name, names)}", "wrong-name")
     return Arguments(t_eval, step, **settings)
 
 
@@ -153,7 +153,7 @@ class CheckedSettings(NamedTuple):
     def steps(self) -> int | None:
         """Number of fixed steps; None with adaptive steps."""
         of = self.core_settings
-        return _gateway.count_steps(of.t0, of.t1, of.step) if self.settings["step"] else None
+        return gateway.count_steps(of.t0, of.t1, of.step) if self.settings["step"] else None
 
 
 class _Known(NamedTuple):
@@ -185,7 +185,7 @@ def plan(system: BaseSystem, span: tuple[float, float], given: Arguments) -> Che
     else:
         course["t_eval"] = settings["t_eval"] = times = times_to_save(given.t_eval, settings["save_every"], span)
         rows = len(times) + 1       # one more, as an event may end the run between two of them
-    return CheckedSettings(settings, _gateway.settings(course, found.core_settings), rows)
+    return CheckedSettings(settings, gateway.settings(course, found.core_settings), rows)
 
 
 # Cached, as the checks take as long as a short run. `typed` keeps 1 and True apart.
@@ -199,7 +199,7 @@ def _plan(formulation: Any, vector: str, *others: Any) -> _Known:
     if integrator is None:
         integrator = CHOOSING if given.step is None else INTEGRATOR
     chosen, corrections, requires = _methods(formulation, integrator, given)
-    settings = {**_steps(integrator, given), **chosen, "save_every": _check.count("save_every", given.save_every),
+    settings = {**_steps(integrator, given), **chosen, "save_every": checks.count("save_every", given.save_every),
                 "on_singular": given.on_singular, "closed_form": given.closed_form, "vector": vector}
     return _Known(settings, core_settings((0.0, 0.0), settings), corrections, requires)
 
@@ -212,10 +212,10 @@ def vector_unit(given: str | None) -> str:
     if given is not None:
         name, said = "vector", given
     else:
-        name, said = "ZERODRIFT_VECTOR", os.environ.get("ZERODRIFT_VECTOR") or VECTOR_UNITS[_gateway.PROCESSOR_UNIT]
-    _check.choice(name, said, VECTOR_UNITS)
-    if VECTOR_UNITS.index(said) > _gateway.PROCESSOR_UNIT:
-        has = " or ".join(map(repr, VECTOR_UNITS[:_gateway.PROCESSOR_UNIT + 1]))
+        name, said = "ZERODRIFT_VECTOR", os.environ.get("ZERODRIFT_VECTOR") or VECTOR_UNITS[gateway.PROCESSOR_UNIT]
+    checks.choice(name, said, VECTOR_UNITS)
+    if VECTOR_UNITS.index(said) > gateway.PROCESSOR_UNIT:
+        has = " or ".join(map(repr, VECTOR_UNITS[:gateway.PROCESSOR_UNIT + 1]))
         raise WrongValue(f"{name} must be {has}, which this processor has, not {said!r}")
     return said
 
@@ -224,7 +224,7 @@ def times_to_save(t_eval: Any, save_every: int, span: tuple[float, float]) -> np
     if save_every != 1:
         raise WrongValue("save_every must be 1 where t_eval is given: one counts steps, the other lists times",
                          "conflicting-arguments")
-    times = _check.increasing("t_eval", t_eval, *span)
+    times = checks.increasing("t_eval", t_eval, *span)
     times.flags.writeable = False
     return times
 
@@ -236,7 +236,7 @@ def _check_resolved(settings: dict[str, Any], span: tuple[float, float]) -> None
     if step is None:
         for name in ("first_step", "max_step"):
             if settings[name] is not None:
-                _check.number(name, settings[name], least=smallest, code="step-size")
+                checks.number(name, settings[name], least=smallest, code="step-size")
     elif step < smallest:
         raise WrongValue(f"step must be at least {smallest:.3g} for times up to {latest:g}, not {step:g}", "step-size")
 
@@ -245,13 +245,13 @@ def _steps(integrator: Any, given: Arguments) -> dict[str, Any]:
     """Settings of fixed steps (`step` given) or of adaptive steps, checked."""
     name_of("integrators", integrator)
     tolerances = {name: getattr(given, name) for name in TOLERANCES}
-    max_steps = None if given.max_steps is None else _check.count("max_steps", given.max_steps)
+    max_steps = None if given.max_steps is None else checks.count("max_steps", given.max_steps)
     if given.step is None:
         return {"step": None, **_tolerances(integrator, tolerances), "max_steps": max_steps}
     for name, value in tolerances.items():
         if value is not None:
             raise WrongValue(f"{name} is for adaptive steps: step must be left out with it", "conflicting-arguments")
-    return {"step": _check.number("step", given.step, above=0, code="step-size")}
+    return {"step": checks.number("step", given.step, above=0, code="step-size")}
 
 
 def _tolerances(integrator: Any, given: dict[str, Any]) -> dict[str, Any]:
@@ -264,10 +264,10 @@ def _tolerances(integrator: Any, given: dict[str, Any]) -> dict[str, Any]:
     given = {name: None if name.startswith("max_") and value == math.inf else value for name, value in given.items()}
     values = TOLERANCES | {name: value for name, value in given.items() if value is not None}
     least = {"rtol": FINEST_RTOL, "atol": 0.0}
-    found: dict[str, Any] = {name: None if value is None else _check.number(
+    found: dict[str, Any] = {name: None if value is None else checks.number(
         name, value, least=least.get(name), code="tolerance" if name in least else "step-size") for name, value in values.items()}
     if found["max_move"] is not None:
-        _check.number("max_move", found["max_move"], above=0, code="step-size")
+        checks.number("max_move", found["max_move"], above=0, code="step-size")
     if found["rtol"] > 1:
         raise WrongValue(f"rtol must be at most 1, not {found['rtol']:g}: it is a part of the state", "tolerance")
     if found["atol"] == 0:
@@ -289,13 +289,13 @@ def _methods(formulation: Any, integrator: Any, given: Arguments) -> tuple[dict[
             others = f"{ARGUMENTS[name]} and " if name in ARGUMENTS else ""
             raise WrongValue(f"each correction must be given once, but {name} is given more often, by {others}correction",
                              "duplicate-name")
-    return found, corrections, functools.reduce(operator.or_, map(_gateway.required, names), 0)
+    return found, corrections, functools.reduce(operator.or_, map(gateway.required, names), 0)
 
 
 def _refuse_corrections(system: BaseSystem, corrections: Sequence[RowSettings]) -> None:
     for name in (each.card.name for each in corrections):
-        for term, row in _gateway.TERMS.items():
-            if row.bit & _gateway.required(name) & ~core_of(system).provides:
+        for term, row in gateway.TERMS.items():
+            if row.bit & gateway.required(name) & ~core_of(system).provides:
                 raise WrongValue(f"{name} correction needs {term} ({row.text}), and {system.name} declares none", "not-available")
 
 
@@ -303,7 +303,7 @@ def saved_rows(span: tuple[float, float], settings: dict[str, Any]) -> int | Non
     """Number of samples of a run, including the start; None with adaptive steps, as it is not known in advance."""
     if settings["step"] is None:
         return None
-    steps = _gateway.count_steps(*span, settings["step"])
+    steps = gateway.count_steps(*span, settings["step"])
     return steps // settings["save_every"] + 1 + (steps % settings["save_every"] != 0)
 
 
@@ -317,15 +317,15 @@ def core_settings(span: tuple[float, float], settings: dict[str, Any]) -> Any:
                          settings.get("closed_form") is None, VECTOR_UNITS.index(settings.get("vector") or "baseline"),
                          *corrections_of(settings))
     changed = {name: settings[name] for name in _PASSED_ON if settings.get(name) is not None}
-    steps = _gateway.ADAPTIVE_STEPS if settings.get("step") is None else _gateway.FIXED_STEPS
-    return _gateway.settings({"t0": span[0], "t1": span[1], "steps": steps, **changed}, like)
+    steps = gateway.ADAPTIVE_STEPS if settings.get("step") is None else gateway.FIXED_STEPS
+    return gateway.settings({"t0": span[0], "t1": span[1], "steps": steps, **changed}, like)
 
 
 @functools.lru_cache(typed=True)
 def _core_methods(formulation: Any, integrator: Any, on_singular: str, closed_form: bool, vector: int,
                   *corrections: RowSettings) -> Any:
     """Settings of the core that select the methods; cached."""
-    return _gateway.settings({
+    return gateway.settings({
         "formulation": row_of("formulations", formulation), "integrator": row_of("integrators", integrator),
         "on_singular": on_singular_row(on_singular), "closed_form": closed_form, "vector": vector,
         **given(formulation, integrator, *corrections)})
@@ -333,7 +333,7 @@ def _core_methods(formulation: Any, integrator: Any, on_singular: str, closed_fo
 
 def disagreement(settings: dict[str, Any]) -> str:
     """Reason why the methods in these settings cannot be combined; empty if they can."""
-    return _gateway.disagreement(core_settings((0.0, 0.0), settings))
+    return gateway.disagreement(core_settings((0.0, 0.0), settings))
 
 
 def given(*chosen: Any) -> dict[str, Any]:

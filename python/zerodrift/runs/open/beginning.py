@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ... import _check, _gateway
+from ..._private import checks, gateway
 from ...errors import CompilationFailed, CostWarning, DrawingWarning, SingularSystem, advised
 from ...systems.base import BaseSystem, closed_form_core_of, core_of
 from ..arguments import events as _events
@@ -31,25 +31,25 @@ class Prepared(NamedTuple):
     span: tuple[float, float]       # s
     settings: dict[str, Any]        # by name, as in `Solution.settings`
     core_settings: Any              # the same as a `zd_settings`
-    core: _gateway.CoreSystem
+    core: gateway.CoreSystem
     rows: int | None                # number of samples; None: not known in advance
     p0: np.ndarray
     v0: np.ndarray
     events: Any
-    watcher: _gateway.Watcher | None
+    watcher: gateway.Watcher | None
     recorded: _outputs.Recorded | None
     path: Any                       # of the file that samples are written to; None: memory
     declared: Declared | None       # inputs
-    inputs: _gateway.Inputs | None
-    source: _gateway.CoreSystem     # core before it became that of one run
-    measured_with_inputs: _gateway.CoreSystem | None = None   # the system that has the measures, where there are inputs
+    inputs: gateway.Inputs | None
+    source: gateway.CoreSystem     # core before it became that of one run
+    measured_with_inputs: gateway.CoreSystem | None = None   # the system that has the measures, where there are inputs
 
     @property
-    def outputs(self) -> _gateway.Outputs | None:
+    def outputs(self) -> gateway.Outputs | None:
         """Measures that are recorded."""
         return self.recorded.core if self.recorded else None
 
-    def created(self, kind: Any = _gateway.Run, saved: Any = None) -> Any:
+    def created(self, kind: Any = gateway.Run, saved: Any = None) -> Any:
         """The core's run; the error of a singular system is extended by the system's advice."""
         try:
             return kind(self.core, self.core_settings, self.p0, self.v0, self.watcher, self.outputs, self.inputs, saved)
@@ -59,7 +59,7 @@ class Prepared(NamedTuple):
                 raise
             raise advised(error, advice) from None
 
-    def record(self, run: _gateway.Run) -> Any:
+    def record(self, run: gateway.Run) -> Any:
         """New record for the samples of the core's run, in memory or in the file, whose header is written."""
         if self.path:
             record = recording.file_of_samples().SampleFile(self.path, self.core, self.outputs, self.rows)
@@ -67,8 +67,8 @@ class Prepared(NamedTuple):
             sizes = dict(zip(recorded.names, recorded.core.sizes, strict=True)) if recorded and recorded.core else {}
             record.begin({"settings": self.settings, "system": self.system, "t_span": self.span}, run.results().sizes, sizes)
             return record
-        recording.check_memory(self.rows or 0, _gateway.row_bytes(self.core, self.outputs), stacklevel=3)
-        return _gateway.Record(self.core, self.rows or recording.FIRST_BLOCK, self.outputs)
+        recording.check_memory(self.rows or 0, gateway.row_bytes(self.core, self.outputs), stacklevel=3)
+        return gateway.Record(self.core, self.rows or recording.FIRST_BLOCK, self.outputs)
 
     @property
     def of(self) -> BaseSystem:
@@ -76,7 +76,7 @@ class Prepared(NamedTuple):
         return self.declared.of.system if self.declared else self.system
 
     @property
-    def measured(self) -> _gateway.CoreSystem | None:
+    def measured(self) -> gateway.CoreSystem | None:
         """The system that has the measures, with memory of one run, which is made when the first is read."""
         return self.measured_with_inputs or self.of._watching.core.for_run()
 
@@ -88,7 +88,7 @@ class Prepared(NamedTuple):
         if (names := self.settings.get("outputs")) is not None:
             recorded = _outputs.Recorded(names, self.of, core, measured)
         if self.events is not None:
-            watcher = _gateway.Watcher(core, self.events, measured or self.of._watching.core, is_own=inputs is not None)
+            watcher = gateway.Watcher(core, self.events, measured or self.of._watching.core, is_own=inputs is not None)
         return self._replace(core=core, measured_with_inputs=measured, inputs=inputs, recorded=recorded, watcher=watcher)
 
 
@@ -102,13 +102,13 @@ def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: A
     of = declared.of.system if declared else system
     plan = settings.plan(of, span, arguments)
     plan.core_settings.is_open = is_open
-    takes = not is_open and _gateway.takes_closed_form(core_of(of), plan.core_settings)
+    takes = not is_open and gateway.takes_closed_form(core_of(of), plan.core_settings)
     with contextlib.suppress(CompilationFailed):    # tables serve, as code was not asked for
         if takes and (steps := plan.steps) and (compiled := system._compiled_for(steps)) is not None:
             return prepared(compiled, span, p0, v0, events, outputs, save_to, arguments, inputs=inputs, speeds=speeds,
                             stacklevel=stacklevel + 1)
     core = closed_form_core_of(of, plan.settings["vector"], plan.core_settings)
-    unit = _gateway.closed_form_unit(core, plan.core_settings)
+    unit = gateway.closed_form_unit(core, plan.core_settings)
     plan.settings["vector"] = None if unit is None else settings.VECTOR_UNITS[unit]
     if declared:
         plan.settings.update(speeds.settings())
@@ -132,4 +132,4 @@ def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: A
 
 def nominal_span(t0: float, step: Any) -> tuple[float, float]:
     """Time span of a run without an end, which serves the checks of its start."""
-    return t0, t0 + (NOMINAL_SPAN if step is None else NOMINAL_STEPS * _check.number("step", step, above=0, code="step-size"))
+    return t0, t0 + (NOMINAL_SPAN if step is None else NOMINAL_STEPS * checks.number("step", step, above=0, code="step-size"))

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any, overload
 
-from ... import _check
+from ..._private import checks
 from ...errors import WrongType, WrongValue
 
 WHOLE = 1e-9        # relative deviation of a period from a whole number of steps
@@ -25,9 +25,9 @@ class Every:
     """
 
     def __init__(self, period: Any, call: Callable[[Any], Any]) -> None:
-        self.period = _check.number("period", period, above=0)
+        self.period = checks.number("period", period, above=0)
         if not callable(call):
-            raise WrongType(f"call must be a function of the run, not {_check.shown(call)}")
+            raise WrongType(f"call must be a function of the run, not {checks.shown(call)}")
         self.call = call
 
     def __repr__(self) -> str:
@@ -91,7 +91,7 @@ def controls(given: Any) -> tuple[Every, ...]:
     several = () if given is None else tuple(given) if isinstance(given, Sequence) else (given,)
     for each in several:
         if not isinstance(each, Every):
-            raise WrongType(f"control must be zd.every(period, call=f), or a list of these, not {_check.shown(each)}")
+            raise WrongType(f"control must be zd.every(period, call=f), or a list of these, not {checks.shown(each)}")
     return several
 
 
@@ -171,7 +171,7 @@ def called(each: Every, run: Any) -> None:
     try:
         each.call(run)
     except BaseException as error:
-        _check.tell(error, f"in control {each!r}, called at t = {run.t:g}")
+        checks.tell(error, f"in control {each!r}, called at t = {run.t:g}")
         raise
     finally:
         run._is_controlled = False

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ... import _gateway
+from ..._private import gateway
 from ...errors import AccuracyWarning, CorrectionWarning, LockedWarning, StabilityWarning
 from ...systems.base import core_of
 from ..arguments.methods import Projection, integrators, name_of
@@ -19,7 +19,7 @@ from ..states import branches
 # Both energy limits are relative to the largest kinetic energy. Among the runs that were measured, none whose error of the energy
 # balance (28) stayed below the first limit made a wrong number of turns in twenty. Corrections take out more than that without
 # harm, as long as no single one of them has to take out more than the second limit.
-SMALLEST_PIVOT, LARGEST_ENERGY_ERROR, LARGEST_ENERGY_CORRECTION, ENERGY_ROUNDING = _gateway.WARNING_LIMITS
+SMALLEST_PIVOT, LARGEST_ENERGY_ERROR, LARGEST_ENERGY_CORRECTION, ENERGY_ROUNDING = gateway.WARNING_LIMITS
 POSITION_ROUNDING = 1e-14   # relative to the size of a system: rounding of positions that are corrected in each step
 TOO_COARSE = ("steps are too long for what happens in some of them; take shorter ones, a method of higher order, or rtol instead "
               "of step")
@@ -29,7 +29,7 @@ OTHER_ENERGY = "; or potential and power are not those of the forces: zd.check(s
 CATEGORIES = (AccuracyWarning, CorrectionWarning, LockedWarning, StabilityWarning)
 
 
-def is_beyond_doubt(results: _gateway.Results) -> bool:
+def is_beyond_doubt(results: gateway.Results) -> bool:
     """True if no warning is due. A quick check of a few numbers, as `doubts` takes as long as a short run."""
     counted, kinetic = results.statistics, results.largest_kinetic
     return (not (counted.energy_skipped or counted.too_long or counted.stiff or counted.unresolved)
@@ -188,9 +188,9 @@ def _largest(x: np.ndarray) -> float:
 def _unresolved_part(solution: Solution) -> str:
     """Which part of the motion the steps do not resolve."""
     stats, system = solution.stats, solution.system
-    has_rates = core_of(system).provides & _gateway.TERMS["A"].bit     # then the core compares velocities, not coordinates
+    has_rates = core_of(system).provides & gateway.TERMS["A"].bit     # then the core compares velocities, not coordinates
     parts = [*(system.velocities if has_rates else system.coordinates), *(system.coordinates[q] for q in system.quaternions)]
     part = parts[stats["part"]]
-    unit = "of the mechanism's length" if _gateway.is_length(part) else "rad"
+    unit = "of the mechanism's length" if gateway.is_length(part) else "rad"
     return (f"the steps do not resolve the motion of {part.name!r}: errors of {stats['part_error']:.2g} {unit} add up in it, "
             f"noticed first at t = {stats['unresolved_time']:.6g}")

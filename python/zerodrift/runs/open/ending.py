@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ... import _check, _gateway
+from ..._private import checks, gateway
 from ...errors import CorrectionFailed, Interrupted
 from ...systems.base import BaseSystem, core_of
 from ..arguments import outputs as _outputs
@@ -36,19 +36,19 @@ class Outcome(NamedTuple):
     error: BaseException | None     # exception in Python that stopped the run: memory, Ctrl-C, or from the callable for progress
 
 
-def solution_of(ready: Prepared, run: _gateway.Run, record: Any, results: _gateway.Results, outcome: Outcome,
+def solution_of(ready: Prepared, run: gateway.Run, record: Any, results: gateway.Results, outcome: Outcome,
                 span: tuple[float, float] | None = None, history: History | None = None) -> Solution:
     """Solution of a run that has ended, with its arrays made at first use."""
     record.join()
     return Solution._of_run(
         functools.partial(_arrays_and_stats, record, results, outcome.seconds, ready.recorded, ready.system, ready.settings,
                           history),
-        status=outcome.status, success=outcome.status in (_gateway.DONE, _gateway.EVENT), message=message_of(run, outcome),
+        status=outcome.status, success=outcome.status in (gateway.DONE, gateway.EVENT), message=message_of(run, outcome),
         settings=ready.settings, system=ready.system, t_span=span or ready.span, **events_found(ready.watcher))
 
 
-def solution_of_rows(system: BaseSystem, span: tuple[float, float], chosen: dict[str, Any], record: _gateway.Record,
-                     results: _gateway.Results, seconds: float, status: int, message: str,
+def solution_of_rows(system: BaseSystem, span: tuple[float, float], chosen: dict[str, Any], record: gateway.Record,
+                     results: gateway.Results, seconds: float, status: int, message: str,
                      events: tuple[tuple[np.ndarray, ...], ...] | None) -> Solution:
     """Solution of a completed run that the core made in a batch; `events` are the t, p and v of its events."""
     return Solution._of_run(functools.partial(_arrays_and_stats, record, results, seconds, None, system, chosen),
@@ -56,7 +56,7 @@ def solution_of_rows(system: BaseSystem, span: tuple[float, float], chosen: dict
                             **({} if events is None else dict(zip(EVENTS, events, strict=True))))
 
 
-def _arrays_and_stats(record: _gateway.Record, results: _gateway.Results, seconds: float,
+def _arrays_and_stats(record: gateway.Record, results: gateway.Results, seconds: float,
                       recorded: _outputs.Recorded | None, system: BaseSystem, chosen: dict[str, Any],
                       history: History | None = None) -> dict[str, Any]:
     """Arrays, statistics and outputs of a run under the names of the fields of `Solution`."""
@@ -83,30 +83,30 @@ def with_reason(stats: dict[str, Any], system: BaseSystem, chosen: dict[str, Any
 def _matrix_path_reason(system: BaseSystem, settings: dict[str, Any], stats: dict[str, Any]) -> str | None:
     """Reason why no step used the closed form; None if some did, or if systems of this kind have no closed form."""
     translated, core = core_settings((0.0, 0.0), settings), core_of(system)
-    lacks = system._why_no_closed_form(_gateway.takes_embeddings(translated))
+    lacks = system._why_no_closed_form(gateway.takes_embeddings(translated))
     if stats["closed_form_steps"] or not stats["steps"] or lacks is None:
         return None
     if settings["closed_form"] is False:
         return "closed_form=False"
-    if not _gateway.takes_closed_form(core, translated):
+    if not gateway.takes_closed_form(core, translated):
         explicit = core_settings((0.0, 0.0), settings | {"integrator": EXPLICIT})
-        table = "integrator" if _gateway.takes_closed_form(core, explicit) else "formulation"
+        table = "integrator" if gateway.takes_closed_form(core, explicit) else "formulation"
         return f"{table} {name_of(f'{table}s', settings[table])!r} has none" + " for such a system" * (table == "formulation")
     if lacks:
         return lacks
     return "some constraints are redundant" if stats["redundant"] else "the elimination order is unsuitable at every step"
 
 
-def message_of(run: _gateway.Run, outcome: Outcome) -> str:
+def message_of(run: gateway.Run, outcome: Outcome) -> str:
     """Message of a run: "done", or the reason for its end."""
     match outcome.status:
-        case _gateway.DONE:
+        case gateway.DONE:
             return "done"
-        case _gateway.INTERRUPTED if not isinstance(outcome.error, KeyboardInterrupt):
+        case gateway.INTERRUPTED if not isinstance(outcome.error, KeyboardInterrupt):
             return f"stopped by {_shown(outcome.error)}"
-        case _gateway.INTERRUPTED:
+        case gateway.INTERRUPTED:
             return "interrupted from the keyboard"
-        case _gateway.CALLBACK if run.has_raised:
+        case gateway.CALLBACK if run.has_raised:
             return "; ".join([f"{run.message}: {_shown(run.error(outcome.status))}", *run.notes])
         case _:
             return run.message
@@ -120,7 +120,7 @@ def _shown(error: BaseException | None) -> str:
         return type(error).__name__
 
 
-def events_found(watcher: _gateway.Watcher | None) -> dict[str, tuple[np.ndarray, ...]]:
+def events_found(watcher: gateway.Watcher | None) -> dict[str, tuple[np.ndarray, ...]]:
     """Fields `t_events`, `p_events` and `v_events`, each with one array per event; empty without events."""
     if watcher is None:
         return {}
@@ -130,7 +130,7 @@ def events_found(watcher: _gateway.Watcher | None) -> dict[str, tuple[np.ndarray
     return dict(zip(EVENTS, tuple(zip(*arrays, strict=True)) or ((), (), ()), strict=True))
 
 
-def finished(solution: Solution, run: _gateway.Run, results: _gateway.Results, outcome: Outcome, on_failure: str,
+def finished(solution: Solution, run: gateway.Run, results: gateway.Results, outcome: Outcome, on_failure: str,
              keyboard: Keyboard) -> Solution:
     """Return the solution, with warnings where it is doubtful; or raise an error that has it as an attribute."""
     interrupted = isinstance(outcome.error, KeyboardInterrupt)
@@ -139,7 +139,7 @@ def finished(solution: Solution, run: _gateway.Run, results: _gateway.Results, o
     if outcome.error is not None and not interrupted:
         raise with_solution(outcome.error, solution)
     if on_failure == "raise" and not solution.success:
-        if solution.status == _gateway.INTERRUPTED:
+        if solution.status == gateway.INTERRUPTED:
             raise Interrupted(solution.message, solution) from None
         error, note = failure_of(solution.system, run, solution.status, solution.settings, solution.t_span, solution)
         raise with_solution(error, solution, note)
@@ -148,20 +148,20 @@ def finished(solution: Solution, run: _gateway.Run, results: _gateway.Results, o
     return solution
 
 
-def failure_of(system: BaseSystem, run: _gateway.Run, status: int, settings: dict[str, Any],
+def failure_of(system: BaseSystem, run: gateway.Run, status: int, settings: dict[str, Any],
                span: tuple[float, float], solution: Solution | None = None) -> tuple[BaseException, str | None]:
     """Error of a failed run, and advice on it; beyond the reach of a drive it is one error for all methods and steps."""
     t, p, v = run.place()
-    if status == _gateway.CALLBACK:
+    if status == gateway.CALLBACK:
         return run.error(status), run.message
     if said := beyond_reach(system, run, settings, span, solution):
         return CorrectionFailed(said), None
-    if status == _gateway.COLLAPSED:
+    if status == gateway.COLLAPSED:
         return run.error(status), system._advice_on_collapse(t, p, v, run.results().statistics.part)
     return run.error(status), system._advice_on_failure(t, p)
 
 
-def beyond_reach(system: BaseSystem, run: _gateway.Run, settings: dict[str, Any], span: tuple[float, float],
+def beyond_reach(system: BaseSystem, run: gateway.Run, settings: dict[str, Any], span: tuple[float, float],
                  solution: Solution | None = None) -> str:
     """Sentence on drives that end a failed run at a dead point; "" if none does.
 
@@ -179,7 +179,7 @@ def with_solution(error: Any, solution: Any, note: str | None = None) -> BaseExc
     with contextlib.suppress(Exception):
         error.solution = solution
     if note:
-        _check.tell(error, note)
+        checks.tell(error, note)
     return error
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ... import _gateway
+from ..._private import gateway
 
 LENGTH = 24         # hexadecimal digits of a digest
 PLAIN = (type(None), bool, int, float, complex, str, bytes)
@@ -23,7 +23,7 @@ WITH_STATE = ("zerodrift", "sympy", "numpy", "scipy", "functools", "builtins")  
 
 def version() -> str:
     """Version of the package with the first digits of the fingerprint of the sources of its core."""
-    return f"{sys.modules[__package__.partition('.')[0]].__version__} ({_gateway.FINGERPRINT[:LENGTH]})"
+    return f"{sys.modules[__package__.partition('.')[0]].__version__} ({gateway.FINGERPRINT[:LENGTH]})"
 
 
 class Identity:

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from types import CodeType, FrameType
 from typing import Any
 
-from ... import _webassembly
+from ..._private import webassembly
 from ...errors import MissingPackage, WrongType
 
 INTERRUPT = int(signal.SIGINT)
@@ -33,7 +33,7 @@ class Keyboard:
             frame = frame.f_back
 
     def __enter__(self) -> Keyboard:
-        if (not _webassembly.IS_USED and threading.current_thread() is threading.main_thread()
+        if (not webassembly.IS_USED and threading.current_thread() is threading.main_thread()
                 and _signal.getsignal(INTERRUPT) is signal.default_int_handler):
             _signal.signal(INTERRUPT, self._press)
             self._handles_signal = True

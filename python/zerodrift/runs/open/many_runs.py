@@ -11,8 +11,8 @@ from typing import Any, Unpack
 
 import numpy as np
 
-from ... import _check, _gateway
-from ..._types import ArrayLike, Inputs, MeasureLike, Settings, SystemLike
+from ..._private import checks, gateway
+from ..._private.types import ArrayLike, Inputs, MeasureLike, Settings, SystemLike
 from ...errors import WrongValue
 from ...systems.base import closed_form_core_of
 from ..arguments.inputs import Speeds, refuse_unknown
@@ -92,7 +92,7 @@ class ManyRuns:
                  parameters: Mapping[str, ArrayLike] | None = None, t0: float = 0.0, step: float | None = None,
                  inputs: Inputs | None = None, hold: bool = False, ramp: float | None = None,
                  **settings: Unpack[Settings]) -> None:
-        t0, count = _check.number("t0", t0), _check.count("runs", runs)
+        t0, count = checks.number("t0", t0), checks.count("runs", runs)
         first = _first("p0", p0, count), _first("v0", v0, count)
         ready = prepared(system, nominal_span(t0, step), *first, None, None, None, known("ManyRuns", step, None, **settings),
                          inputs=inputs, speeds=Speeds(hold, ramp), is_open=True)
@@ -104,7 +104,7 @@ class ManyRuns:
         self._ready = _of_each(ready, count, _tables(parameters, count), _check_states(ready, p0, v0, count), self.inputs)
         self._parts = _parts(count, 1 if ready.core.calls_python else processors())
         self._pool: ThreadPoolExecutor | None = None
-        self._core = _gateway.ManyOpenRuns([each.created(_gateway.OpenRun) for each in self._ready], self._ready, self._parts)
+        self._core = gateway.ManyOpenRuns([each.created(gateway.OpenRun) for each in self._ready], self._ready, self._parts)
         self._readings: dict[int, Reading] = {}
 
     def __len__(self) -> int:
@@ -123,11 +123,11 @@ class ManyRuns:
         steps : int
             Their number, at least 0.
         """
-        self._advance(_check.count("steps", steps, least=0), math.inf)
+        self._advance(checks.count("steps", steps, least=0), math.inf)
 
     def advance_to(self, t: float) -> None:
         """Advance every run that has not failed to a time in s, as `Run.advance_to`; later ones fail."""
-        self._advance(_gateway.MAX_STEPS, _check.number("t", t))
+        self._advance(gateway.MAX_STEPS, checks.number("t", t))
 
     def _advance(self, steps: int, t: float) -> None:
         core, others = self._core, range(1, len(self._parts))
@@ -170,7 +170,7 @@ class ManyRuns:
 
     def _message(self, i: int) -> str:
         run, ready = self._core[i], self._ready[i]
-        is_by_others = self._core.status[i] in (_gateway.BAD_INPUT, _gateway.CALLBACK)
+        is_by_others = self._core.status[i] in (gateway.BAD_INPUT, gateway.CALLBACK)
         return (not is_by_others and beyond_reach(ready.of, run, self.settings, ready.span)) or run.message
 
     def __getitem__(self, measure: MeasureLike) -> np.ndarray:
@@ -239,7 +239,7 @@ class ManyRuns:
                 ready = ready.with_own()
             self._become(i, ready, restored(ready, found, self.system))
 
-    def _become(self, i: int, ready: Prepared, run: _gateway.OpenRun) -> None:
+    def _become(self, i: int, ready: Prepared, run: gateway.OpenRun) -> None:
         """Put another run of the core in the place of one."""
         if ready.inputs:
             ready.inputs.adopt(self.inputs[i])
@@ -263,7 +263,7 @@ class ManyRuns:
             ready = self._ready[i]
             start = ready._replace(p0=ready.p0 if p is None else p, v0=ready.v0 if v is None else v)
             with ready.inputs.initially() if ready.inputs else contextlib.nullcontext():
-                self._become(i, ready, start.created(_gateway.OpenRun))
+                self._become(i, ready, start.created(gateway.OpenRun))
 
 
 def _parts(count: int, threads: int) -> list[tuple[int, int]]:
@@ -289,7 +289,7 @@ def _check_states(ready: Prepared, p0: Any, v0: Any, count: int) -> list[tuple[A
         if given is None or not isinstance(given, np.ndarray | list | tuple):
             columns.append([None] * count)
             continue
-        array = _check.real(f"{name} must hold", given).astype(float)
+        array = checks.real(f"{name} must hold", given).astype(float)
         if array.shape not in ((size,), (count, size)):
             raise WrongValue(f"{name} must have shape ({size},) or ({count}, {size}), not {array.shape}", "shape")
         columns.append(list(np.broadcast_to(array, (count, size)).copy()))
@@ -298,7 +298,7 @@ def _check_states(ready: Prepared, p0: Any, v0: Any, count: int) -> list[tuple[A
 
 def _tables(parameters: Any, count: int) -> list[dict[str, Any]]:
     """Parameters of each run, by name."""
-    given = _check.parameters(parameters)
+    given = checks.parameters(parameters)
     for name, values in given.items():
         if np.ndim(values) and len(values) != count:
             raise WrongValue(f"parameter {name!r} must be a number or have {count} values, one for each run, not {len(values)}",
@@ -311,7 +311,7 @@ def _mask(where: Any, count: int) -> np.ndarray:
         return np.ones(count, dtype=bool)
     mask = np.asarray(where)
     if mask.shape != (count,) or mask.dtype != bool:
-        raise WrongValue(f"where must be {count} values True or False, not {_check.shown(where)}", "shape")
+        raise WrongValue(f"where must be {count} values True or False, not {checks.shown(where)}", "shape")
     return mask
 
 
@@ -329,7 +329,7 @@ def _of_each(ready: Prepared, count: int, tables: list[dict[str, Any]], states: 
 def _in_lanes(ready: Prepared) -> Prepared:
     """Arguments with functions for SIMD lanes, if the system has them and the settings admit lanes."""
     vector = ready.settings["vector"]
-    if vector is None or not ready.source.has_closed_form or not _gateway.lanes_serve(ready.source, ready.core_settings):
+    if vector is None or not ready.source.has_closed_form or not gateway.lanes_serve(ready.source, ready.core_settings):
         return ready
     return ready._replace(source=ready.of._core_in_lanes(vector))
 

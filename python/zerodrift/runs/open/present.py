@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check, _gateway
-from ..._types import ArrayLike, MeasureLike
+from ..._private import checks, gateway
+from ..._private.types import ArrayLike, MeasureLike
 from ...errors import WrongValue
 from ..arguments.inputs import refuse_unknown
 from ..samples.summary import run_summary
@@ -24,7 +24,7 @@ class Present:
         self.inputs = ready.inputs.values if ready.inputs else np.empty(0)
         self._places: dict[Any, Any] = ready.declared.places() if ready.declared else {}
 
-    def _open(self, core: _gateway.OpenRun) -> None:
+    def _open(self, core: gateway.OpenRun) -> None:
         """Read the core's run, from now on."""
         self._core, self._c = core, core.c
         self._reading = Reading(self._ready.of, core, self._ready)
@@ -101,7 +101,7 @@ class Present:
             self.inputs[self._place_of(name)] = value
         except ValueError:
             raise WrongValue(f"input {name!r} must be set to real numbers of shape {np.shape(self._places[name])}, not "
-                             f"{_check.shown(value)}", "shape") from None
+                             f"{checks.shown(value)}", "shape") from None
 
     def _place_of(self, name: Any) -> int | np.ndarray:
         """Index of an input, by its name or its measure."""

@@ -6,8 +6,8 @@ import warnings
 from collections.abc import Sequence
 from typing import Any, Unpack
 
-from ... import _check, _gateway
-from ..._types import ArrayLike, Events, Inputs, Measures, PathLike, Settings, StateLike, SystemLike
+from ..._private import checks, gateway
+from ..._private.types import ArrayLike, Events, Inputs, Measures, PathLike, Settings, StateLike, SystemLike
 from ...errors import StateWarning, WrongState, WrongValue
 from ..arguments.inputs import History, Speeds
 from ..arguments.settings import known, with_names
@@ -132,13 +132,13 @@ class Run(Stepping):
                  control: Every | Sequence[Every] | None = None, record: bool = False, save_to: PathLike | None = None,
                  events: Events | None = None, outputs: Measures | None = None,
                  **settings: Unpack[Settings]) -> None:
-        t0 = _check.number("t0", t0)
+        t0 = checks.number("t0", t0)
         ready = prepared(system, nominal_span(t0, step), p0, v0, events, outputs, save_to,
                          known("Run", step, None, **settings), inputs=inputs, speeds=Speeds(hold, ramp), is_open=True)
         self._begin(ready, controls(control))
         self._lock = recording.locked(ready.path)
         self._lock.__enter__()
-        if _check.instance("record", record, bool, "True or False") or ready.path:
+        if checks.instance("record", record, bool, "True or False") or ready.path:
             self._begin_record()
 
     @classmethod
@@ -252,9 +252,9 @@ class Run(Stepping):
         if p0 is not None or v0 is not None:
             p, v = self._ready.of._state_or_start(p0, v0, t=ready.span[0])
             ready = ready._replace(p0=p, v0=v)
-        self._become(ready, ready.created(_gateway.OpenRun))
+        self._become(ready, ready.created(gateway.OpenRun))
 
-    def _become(self, ready: Prepared, core: _gateway.OpenRun) -> None:
+    def _become(self, ready: Prepared, core: gateway.OpenRun) -> None:
         """Go on as another run of the core."""
         if ready.inputs:        # the array that the caller may hold stays the one that is read
             ready.inputs.adopt(self.inputs)
@@ -305,7 +305,7 @@ class Run(Stepping):
                              "not-available")
         if self._ready.path:
             self._require_idle()
-        outcome = Outcome(_gateway.DONE if self.event is None else _gateway.EVENT, self._seconds, None)
+        outcome = Outcome(gateway.DONE if self.event is None else gateway.EVENT, self._seconds, None)
         solution = self._solution(outcome)
         if self._ready.path:
             finish_file(self._record, solution, outcome)
@@ -316,7 +316,7 @@ class Run(Stepping):
     def close(self) -> None:
         """Stop recording, and let go of the file of `save_to`."""
         self._require_idle()
-        self._record, self._c_record = None, _gateway.NO_RECORD
+        self._record, self._c_record = None, gateway.NO_RECORD
         self._lock.__exit__(None, None, None)
 
     def __enter__(self) -> Run:
@@ -325,7 +325,7 @@ class Run(Stepping):
     def __exit__(self, *exception: Any) -> None:
         self._require_idle()
         if self._record is not None and self._ready.path:
-            finish_file(self._record, self._solution(Outcome(_gateway.DONE, self._seconds, None)), None)
+            finish_file(self._record, self._solution(Outcome(gateway.DONE, self._seconds, None)), None)
         self.close()
 
 

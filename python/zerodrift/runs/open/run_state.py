@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ... import _gateway, _webassembly
+from ..._private import gateway, webassembly
 from ...errors import WrongState, ZerodriftError, sentence
 from ...systems.base import BaseSystem
 from .beginning import Prepared
@@ -43,7 +43,7 @@ class RunState(NamedTuple):
 
 def saved(ready: Prepared, core: Any, controllers: list[Any], system: BaseSystem) -> bytes:
     """State of a run of the core, with these states of its controllers; `system` is the one that was given for all runs."""
-    _webassembly.refuse("the state of a run", "saved on another machine", "addresses have four bytes")
+    webassembly.refuse("the state of a run", "saved on another machine", "addresses have four bytes")
     inputs = core.inputs
     values, places = (inputs.values, inputs.at_places) if inputs else (np.empty(0), np.empty(0))
     return packed(RunState(values, places, controllers, core.save(fingerprint(ready, system)).state))
@@ -87,7 +87,7 @@ def fingerprint(ready: Prepared, system: BaseSystem) -> str:
     of = ready.of
     parameters = sorted((name, repr(value)) for name, value in of.parameters.items())
     names = ready.declared.names if ready.declared else ()
-    described = (_gateway.LAYOUT, type(of).__name__, of.name, of.coordinates, of.velocities, of.constraints, parameters,
+    described = (gateway.LAYOUT, type(of).__name__, of.name, of.coordinates, of.velocities, of.constraints, parameters,
                  names, _definition(system))
     return hashlib.sha256(repr(described).encode()).hexdigest()[:DIGITS]
 
@@ -108,7 +108,7 @@ def restored(ready: Prepared, found: RunState, system: BaseSystem) -> Any:
         If the block is of another system, other settings or another vector unit.
     """
     try:
-        core = ready.created(_gateway.OpenRun, _gateway.Saved(found.core, fingerprint(ready, system)))
+        core = ready.created(gateway.OpenRun, gateway.Saved(found.core, fingerprint(ready, system)))
     except (ZerodriftError, ValueError) as error:
         raise WrongState(sentence(error)) from None
     if ready.inputs:

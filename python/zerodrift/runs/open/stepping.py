@@ -6,7 +6,7 @@ import math
 import time
 from typing import Any
 
-from ... import _check, _gateway
+from ..._private import checks, gateway
 from ...errors import InUse, WrongValue
 from ..arguments.inputs import Drives, History, Jump
 from ..samples import recording
@@ -29,11 +29,11 @@ class Stepping(Present):
         self._sampling = Sampling(of, ready.span[0], ready.settings["step"]) if of else None
         self._record: Any = None
         self._history: History | None = None
-        self._c_record, self._seconds = _gateway.NO_RECORD, 0.0
+        self._c_record, self._seconds = gateway.NO_RECORD, 0.0
         self._drives = Drives(ready.declared) if ready.declared and ready.declared.follows.jumps else None
-        self._open(ready.created(_gateway.OpenRun))
+        self._open(ready.created(gateway.OpenRun))
 
-    def _open(self, core: _gateway.OpenRun) -> None:
+    def _open(self, core: gateway.OpenRun) -> None:
         super()._open(core)
         self.jump: Jump | Any = None
         self._jumps = core.jumps
@@ -62,10 +62,10 @@ class Stepping(Present):
         """
         if self._sampling is not None:
             self._require_idle()
-            self._sample(self._sampling, self.steps + _check.count("steps", steps, least=0), math.inf)
+            self._sample(self._sampling, self.steps + checks.count("steps", steps, least=0), math.inf)
         elif self._record is not None or self._drives is not None:
-            self._go(_check.count("steps", steps, least=0), math.inf)
-        elif status := _gateway.STEP(self._c, steps, self._c_record):
+            self._go(checks.count("steps", steps, least=0), math.inf)
+        elif status := gateway.STEP(self._c, steps, self._c_record):
             self._attend(status)
 
     def advance_to(self, t: float) -> None:
@@ -86,12 +86,12 @@ class Stepping(Present):
         ZerodriftError
             As `step`.
         """
-        t = _check.number("t", t, least=self.t)
+        t = checks.number("t", t, least=self.t)
         if self._sampling is not None:
             self._require_idle()
-            self._sample(self._sampling, _gateway.MAX_STEPS, t)
+            self._sample(self._sampling, gateway.MAX_STEPS, t)
         else:
-            self._go(_gateway.MAX_STEPS, t)
+            self._go(gateway.MAX_STEPS, t)
 
     def _require_idle(self) -> None:
         """Raise an error if a controller of this run is being called."""
@@ -133,30 +133,30 @@ class Stepping(Present):
     def _attend(self, status: int) -> None:
         """Go on after a pause or with more memory; raise the error of a failure."""
         core, record = self._core, self._record
-        while status in (_gateway.PAUSED, _gateway.FULL):
-            if status == _gateway.FULL:
+        while status in (gateway.PAUSED, gateway.FULL):
+            if status == gateway.FULL:
                 recording.check_memory(record.next_rows, record.row_bytes, stacklevel=4)
                 record.grow()
                 self._c_record = record.c
             status = core.advance(record, SLICE)
         if record is not None:
             record.keep()
-        if status not in (_gateway.DONE, _gateway.EVENT):
+        if status not in (gateway.DONE, gateway.EVENT):
             self._fail(status)
 
     def _fail(self, status: int) -> None:
         """Raise the error of a failed step; the core has returned to its start."""
         core = self._core
-        if status == _gateway.BAD_ARGUMENT:
+        if status == gateway.BAD_ARGUMENT:
             raise WrongValue("steps must be at least 0", "out-of-range")
         error, note = core.error(status), None
-        if status != _gateway.BAD_INPUT:
+        if status != gateway.BAD_INPUT:
             error, note = failure_of(self._ready.of, core, status, self.settings, self._ready.span)
         core.forget_errors()
         if self._record is not None and self._ready.path is None and isinstance(error, Exception):
             with_solution(error, self._solution(Outcome(status, self._seconds, None)))
         if note:
-            _check.tell(error, note)
+            checks.tell(error, note)
         raise error
 
     def _solution(self, outcome: Outcome) -> Solution:
@@ -170,7 +170,7 @@ class Stepping(Present):
         if sampling is not None:
             sampling.call(self)
             steps, instant = sampling.next(self)
-            core.set_goal(_gateway.MAX_STEPS if steps is None else steps, instant)
+            core.set_goal(gateway.MAX_STEPS if steps is None else steps, instant)
         if self._history is not None:
             self._history.note(core.t, self.inputs)
 

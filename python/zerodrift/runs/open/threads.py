@@ -7,14 +7,14 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from ... import _gateway, _webassembly
+from ..._private import gateway, webassembly
 
 LOOK = 0.05     # s between checks of keyboard and progress; on some systems a join without timeout ignores Ctrl-C
 
 
 def processors() -> int:
     """Number of processors that this process may use."""
-    if _webassembly.IS_USED:
+    if webassembly.IS_USED:
         return 1
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
@@ -29,14 +29,14 @@ class Threads:
     parts : iterator
     """
 
-    def __init__(self, work: Callable[[Any, _gateway.Stop], None], parts: Iterator[Any]) -> None:
+    def __init__(self, work: Callable[[Any, gateway.Stop], None], parts: Iterator[Any]) -> None:
         self._work, self._parts = work, parts
-        self._lock, self._stop = threading.Lock(), _gateway.Stop()
+        self._lock, self._stop = threading.Lock(), gateway.Stop()
         self._error: BaseException | None = None
 
     def run(self, count: int, look: Callable[[], Any]) -> None:
         """Do all parts in `count` threads; meanwhile this thread calls `look` regularly. In WebAssembly this thread does them."""
-        if _webassembly.IS_USED:
+        if webassembly.IS_USED:
             for part in self._parts:
                 self._work(part, self._stop)
                 look()
@@ -72,10 +72,10 @@ class Threads:
             return None if self._stop() else next(self._parts, None)
 
 
-def side_by_side(work: Callable[[Any, _gateway.Stop | None], None], parts: Sequence[Any], look: Callable[[], Any] = int, *,
+def side_by_side(work: Callable[[Any, gateway.Stop | None], None], parts: Sequence[Any], look: Callable[[], Any] = int, *,
                  in_threads: bool) -> None:
     """Do all parts in one thread per available processor, or one after the other if they call Python functions."""
-    if in_threads and not _webassembly.IS_USED:
+    if in_threads and not webassembly.IS_USED:
         Threads(work, iter(parts)).run(min(len(parts), processors()), look)
         return
     for part in parts:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ... import _gateway
+from ..._private import gateway
 from ...errors import WrongValue
 from ...systems.base import closed_form_core_of
 from ..arguments.inputs import Declared
@@ -17,11 +17,11 @@ from ..arguments.settings import core_settings
 def states_between(solution: Any, rows: np.ndarray, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Coordinates (k, nq) and velocities (k, nv) at increasing times (k,), each in the step that begins at sample `rows` (k,)."""
     settings = core_settings(solution.t_span, solution.settings)
-    samples = (solution.t, solution.p, solution.v, solution.energy_input, solution.status == _gateway.EVENT)
+    samples = (solution.t, solution.p, solution.v, solution.energy_input, solution.status == gateway.EVENT)
     p, v = np.empty((len(times), solution.p.shape[1])), np.empty((len(times), solution.v.shape[1]))
     is_own = "inputs" in solution.settings
     for core, part in _cores(solution, settings, rows):
-        p[part], v[part] = _gateway.states_between(core, settings, *samples, times[part], is_own=is_own)
+        p[part], v[part] = gateway.states_between(core, settings, *samples, times[part], is_own=is_own)
     return p, v
 
 
@@ -34,7 +34,7 @@ def _cores(solution: Any, settings: Any, rows: np.ndarray) -> Iterator[tuple[Any
         return
     of = system._with_inputs(names)
     given = np.column_stack([solution[name] for name in names])
-    declared = Declared(tuple(names), given[0], given[0], of, _gateway.Following())
+    declared = Declared(tuple(names), given[0], given[0], of, gateway.Following())
     inputs, (core, _) = declared.bound(closed_form_core_of(of.system, vector, settings), of.system._watching.core)
     if any(inputs.c.place[i].is_speed for i in range(inputs.c.places)):
         raise _wrong("a speed is an input")

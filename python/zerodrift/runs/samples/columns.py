@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ..._gateway import Variable
-from ..._writing import write_atomically
+from ..._private.gateway import Variable
+from ..._private.writing import write_atomically
 from ...errors import MissingPackage
 from ...systems.measure_values import component_names
 

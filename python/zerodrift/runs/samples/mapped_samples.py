@@ -16,7 +16,7 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from ... import _gateway
+from ..._private import gateway
 from ...errors import WrongValue, sentence
 from ...systems.base import BaseSystem
 from .saving import unpacked
@@ -109,7 +109,7 @@ def _rest(content: bytes) -> dict[str, np.ndarray]:
 def _unfinished(description: dict[str, Any], t: np.ndarray) -> dict[str, Any]:
     """Description of a run that did not end."""
     message = f"{STOPPED}: there are " + (f"{len(t)} samples, the last at t = {t[-1]:.6g}" if len(t) else "no samples")
-    return description | {"status": _gateway.INTERRUPTED, "success": False, "message": message, "stats": {}}
+    return description | {"status": gateway.INTERRUPTED, "success": False, "message": message, "stats": {}}
 
 
 def _split(rows: np.ndarray | None, sizes: Mapping[str, int]) -> dict[str, np.ndarray]:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ... import _gateway
-from ..._types import MeasureLike
+from ..._private import gateway
+from ..._private.types import MeasureLike
 from ...errors import WrongName
 from ...systems.base import BaseSystem
 from ...systems.measure_values import AXES, view
@@ -132,7 +132,7 @@ class Named:
         name, body = (getattr(each, "name", each) for each in (name, body))
         return self.system._watching.unique(name, self, body)
 
-    def _named(self) -> tuple[tuple[np.ndarray, tuple[_gateway.Variable, ...]], ...]:
+    def _named(self) -> tuple[tuple[np.ndarray, tuple[gateway.Variable, ...]], ...]:
         """Arrays with named columns, each with the variables of its columns."""
         system = self.system
         return (self.p, system.coordinates), (self.v, system.velocities), (self.multipliers, system.constraints)

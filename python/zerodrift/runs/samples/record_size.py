@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from ... import _check, _gateway
-from ..._types import ArrayLike, Measures, SystemLike
+from ..._private import checks, gateway
+from ..._private.types import ArrayLike, Measures, SystemLike
 from ...systems.base import core_of, system_of
 from ..arguments import outputs as _outputs
 from ..arguments import settings
@@ -61,15 +61,15 @@ def record_size(system: SystemLike, t_span: float | tuple[float, float], *, step
     >>> print(zd.record_size(zd.systems.four_bar(), 3600.0, step=1e-4, save_every=100))
     360001 samples of 144 bytes: 51.8 MB
     """
-    system, span = system_of(system), _check.span(t_span)
+    system, span = system_of(system), checks.span(t_span)
     core, recorded = core_of(system), None
     if outputs is not None:
         recorded = _outputs.Recorded(_outputs.names(outputs, system), system, core).core
     chosen: dict[str, Any] = {
-        "step": None if step is None else _check.number("step", step, above=0, code="step-size"),
-        "save_every": _check.count("save_every", save_every)}
+        "step": None if step is None else checks.number("step", step, above=0, code="step-size"),
+        "save_every": checks.count("save_every", save_every)}
     rows = settings.saved_rows(span, chosen)
     if t_eval is not None:
         rows = len(settings.times_to_save(t_eval, chosen["save_every"], span))
-    row = _gateway.row_bytes(core, recorded)
+    row = gateway.row_bytes(core, recorded)
     return RecordSize(rows, row, None if rows is None else rows * row)

@@ -19,9 +19,9 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check, _gateway
-from ..._locking import Lock
-from ..._writing import temporary_beside, with_suffix
+from ..._private import checks, gateway
+from ..._private.locking import Lock
+from ..._private.writing import temporary_beside, with_suffix
 from ...errors import ExistingFile, FileInUse, MissingFile, WrongValue
 from . import mapped_samples, memory
 from .saving import EVENTS, described, packed
@@ -35,7 +35,7 @@ ALIGNED = 64            # bytes: the samples begin at a multiple of this offset
 BLOCK = 2**20           # bytes of samples buffered in memory before they are written; at least one sample
 NOT_IN_ROWS = [name for name in FIELDS if name not in (
     "t", "p", "v", "multipliers", "position_violation", "velocity_violation", "kinetic_energy", "potential_energy",
-    "energy_input", "energy_violation", "outputs", *_gateway.COUNTS)]
+    "energy_input", "energy_violation", "outputs", *gateway.COUNTS)]
 AS_WINDOWS = os.name == "nt"        # files that are open, or mapped into memory, are neither removed nor replaced there
 
 
@@ -43,7 +43,7 @@ def checked(save_to: Any) -> Path | None:
     """Path from the argument `save_to`, checked: its folder must exist, and an existing file must be a file of samples."""
     if save_to is None:
         return None
-    path = Path(_check.instance("save_to", save_to, str | Path, "the path of a file, or None"))
+    path = Path(checks.instance("save_to", save_to, str | Path, "the path of a file, or None"))
     if path.suffix == ".npz":
         raise WrongValue(f"save_to must not end in .npz, which is what Solution.save writes, but {str(path)!r} does")
     path = with_suffix(path, SUFFIX)
@@ -59,23 +59,23 @@ def checked(save_to: Any) -> Path | None:
 class SampleFile:
     """Record of a run whose samples are written to a file."""
 
-    def __init__(self, path: Path, core: _gateway.CoreSystem, outputs: _gateway.Outputs | None, rows: int | None) -> None:
-        row = _gateway.row_bytes(core, outputs)
+    def __init__(self, path: Path, core: gateway.CoreSystem, outputs: gateway.Outputs | None, rows: int | None) -> None:
+        row = gateway.row_bytes(core, outputs)
         memory.check_disk(rows, row, path.parent)
         most = max(1, BLOCK // row)
-        self._record = _gateway.Record(core, most if rows is None else min(most, rows), outputs)
+        self._record = gateway.Record(core, most if rows is None else min(most, rows), outputs)
         self._path, self._row, self._begin, self.rows = path, row, 0, 0
 
     def begin(self, known: dict[str, Any], position_size: np.ndarray, outputs: Mapping[str, int]) -> None:
         """Write the header: fields of the solution that are known at the start, and the size of each recorded output by name."""
         layout = {mapped_samples.FORMAT: FORMAT, "row bytes": self._row, "byte order": sys.byteorder,
-                  "columns": self._record.columns, "integers": _gateway.COUNTS,
+                  "columns": self._record.columns, "integers": gateway.COUNTS,
                   "position size": position_size.tolist(), "outputs": outputs,
                   "solution": described({"outputs": (), **dict.fromkeys(EVENTS), **known})}
         self._outputs = outputs
         names = {name: mapped_samples.NAMES.get(name, name) for name in self._record.columns}
         self._type = [*((names[name], "=f8", shape) for name, (_, shape) in self._record.columns.items()),
-                      *((name, "=i4") for name in _gateway.COUNTS)]
+                      *((name, "=i4") for name in gateway.COUNTS)]
         self._begin = len(self._header(MAX_ROWS))
         self._begin += -self._begin % ALIGNED
         with _replacing(self._path, json.dumps(layout).encode()) as self._file:
@@ -125,7 +125,7 @@ class SampleFile:
         """Map the written samples, without the partial one that a full disk may have left."""
         self._file.truncate(self._begin + self.rows * self._row)    # before it is mapped: Windows cannot truncate a mapped file
         self._opened = mapped_samples.columns(
-            self._file, self._begin, self.rows, self._row, self._record.columns, _gateway.COUNTS)
+            self._file, self._begin, self.rows, self._row, self._record.columns, gateway.COUNTS)
 
     def take(self) -> dict[str, np.ndarray]:
         """Columns by name, mapped from the file."""

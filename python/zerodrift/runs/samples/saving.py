@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ... import _gateway
+from ..._private import gateway
 from ...errors import WrongValue
 from ...systems.base import BaseSystem
 from ...systems.builtin import FACTORIES, BuiltIn
@@ -22,7 +22,7 @@ EVENTS = ("t_events", "p_events", "v_events")   # of a solution: an array for ea
 
 def write(path: Path, values: Mapping[str, Any]) -> None:
     """Writes the fields of a solution."""
-    from ..._writing import write_arrays  # pathlib is slow to import
+    from ..._private.writing import write_arrays  # pathlib is slow to import
 
     write_arrays(path, packed(values), np.savez_compressed)
 
@@ -128,7 +128,7 @@ class Described(BaseSystem):
         self.name, self.parameters = description["name"], {}
         self._not_saved = description.get("not_saved")
         for group in ("coordinates", "velocities", "constraints"):
-            setattr(self, group, tuple(_gateway.Variable(*variable) for variable in description[group]))
+            setattr(self, group, tuple(gateway.Variable(*variable) for variable in description[group]))
 
     m = property(lambda self: len(self.constraints), doc="Number of constraints.")
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from ... import _check
-from ..._types import ArrayLike
+from ..._private import checks
+from ..._private.types import ArrayLike
 from ...errors import WrongValue
 from ...systems.base import BaseSystem
 from ..states.instant import Instant
@@ -201,7 +201,7 @@ class Solution(Named):
                              "not-available")
         if not len(self.t):
             raise WrongValue("a solution must have samples to be evaluated between them, and this one has none", "not-available")
-        times = _check.times("t", t, self.t[0], self.t[-1])
+        times = checks.times("t", t, self.t[0], self.t[-1])
         each, places = np.unique(times, return_inverse=True)
         p, v = self._states_at(each)
         places = places.reshape(times.shape)
@@ -233,7 +233,7 @@ class Solution(Named):
         >>> bool(abs(sol.at(0.25)["x"] - sol(0.25)[0][0]) < 1e-15)
         True
         """
-        t = _check.number("t", t)
+        t = checks.number("t", t)
         now = Instant(self.system, t, *self(t))
         now._inputs = self.settings.get("inputs") or ()
         return now

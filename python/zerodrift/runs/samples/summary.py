@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..._gateway import WARNING_LIMITS
+from ..._private.gateway import WARNING_LIMITS
 from ..arguments.settings import corrections_of
 
 MAX_NAMED = 8              # redundant constraints named in the summary

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ... import _gateway
+from ..._private import gateway
 from ...systems.base import core_of
 
 LARGEST = 100           # velocities
@@ -51,7 +51,7 @@ class _Branch:
     def __init__(self, solution: Any) -> None:
         self.solution, self.core = solution, core_of(solution.system)
         system = solution.system
-        self.of_p, self.of_v = (np.array([_gateway.is_length(each) for each in group], dtype=bool)
+        self.of_p, self.of_v = (np.array([gateway.is_length(each) for each in group], dtype=bool)
                                 for group in (system.coordinates, system.velocities))
         length = self.core.c.length or float(np.abs(solution.p[0][self.of_p]).max(initial=0.0)) or 1.0
         self.scale_p, self.scale_v = np.where(self.of_p, length, 1.0), np.where(self.of_v, length, 1.0)
@@ -82,7 +82,7 @@ class _Branch:
     def detours(self) -> list[int]:
         """Samples whose displacement to the next differs most from h (v0 + v1) / 2; none where rates are not velocities."""
         solution = self.solution
-        if self.core.provides & _gateway.TERMS["A"].bit:
+        if self.core.provides & gateway.TERMS["A"].bit:
             return []
         mean = (solution.v[1:] + solution.v[:-1]) / 2 * np.diff(solution.t)[:, None]
         missed = np.abs((np.diff(solution.p, axis=0) - mean) / self.scale_p).max(axis=1)

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check
-from ..._types import ArrayLike, MeasureLike, SystemLike
+from ..._private import checks
+from ..._private.types import ArrayLike, MeasureLike, SystemLike
 from ...errors import WrongType, WrongValue
 from ...systems.base import BaseSystem, Makes, core_of, system_of
 from .operations import acceleration, project
@@ -101,7 +101,7 @@ class Instant(Reading):
     """
 
     def __init__(self, system: SystemLike, t: float = 0.0, p: ArrayLike | None = None, v: ArrayLike | None = None) -> None:
-        self.system, self.t = system_of(system), _check.number("t", t)
+        self.system, self.t = system_of(system), checks.number("t", t)
         core_of(self.system)
         p, v = self.system._state_or_start(p, v, "p", "v", self.t)
         self.p, self.v = np.array(p), np.array(v)

@@ -7,9 +7,9 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ... import _check, _gateway
-from ..._gateway import Variable
-from ..._types import ArrayLike, Formulation, Measures, Projection, SystemLike, Values
+from ..._private import checks, gateway
+from ..._private.gateway import Variable
+from ..._private.types import ArrayLike, Formulation, Measures, Projection, SystemLike, Values
 from ...errors import WrongType, WrongValue
 from ...systems.base import BaseSystem, Makes, core_of, system_of
 from ..arguments import methods, settings
@@ -75,7 +75,7 @@ def assemble(system: SystemLike, p: ArrayLike | Values | None = None, v: ArrayLi
     (1.2, 2.0)
     """
     if isinstance(p, Mapping) or isinstance(system, Makes) or (p is None and hasattr(system, "_assembled")):
-        return _assembled(system_of(system), p, v, hold, wish, _far(nudge), _check.number("t", t))
+        return _assembled(system_of(system), p, v, hold, wish, _far(nudge), checks.number("t", t))
     core_of(system)
     if wish is not None or nudge:
         raise WrongType(f"wish and nudge must be left out, as {system.name} is not a mechanism", "conflicting-arguments")
@@ -86,17 +86,17 @@ def assemble(system: SystemLike, p: ArrayLike | Values | None = None, v: ArrayLi
     return _corrected(system, p, v, t, methods.Projection(tol=tol, max_iterations=max_iterations), "augmented", holds)
 
 
-def assembly(system: BaseSystem, hold: Any = ()) -> _gateway.Assembly:
+def assembly(system: BaseSystem, hold: Any = ()) -> gateway.Assembly:
     """Settings with which the core makes a state consistent as `assemble` does, holding these coordinates and velocities."""
     projection = methods.Projection(tol=TOL, max_iterations=ITERATIONS)
-    return _gateway.Assembly(_options("augmented", projection), *_holds(system, hold))
+    return gateway.Assembly(_options("augmented", projection), *_holds(system, hold))
 
 
 def _far(nudge: bool | float) -> float:
     """Value of the argument `nudge` as a number; 0.0 for False."""
     if isinstance(nudge, bool | np.bool_):
         return NUDGE if nudge else 0.0
-    return _check.number("nudge", nudge, above=0)
+    return checks.number("nudge", nudge, above=0)
 
 
 def _assembled(system: Any, held: Any, v: Any, hold: Any, wish: Any, nudge: float, t: float) -> tuple[np.ndarray, np.ndarray]:
@@ -132,7 +132,7 @@ def _held(system: BaseSystem, hold: Any) -> set[str]:
 def _name_of(held: Any, known: Mapping[str, Variable]) -> str:
     """Name of a held coordinate or velocity, given by name or as a variable of the system."""
     name = held.name if isinstance(held, Variable) and known.get(held.name) == held else held
-    return name if isinstance(name, str) and name in known else _check.choice("hold", name, list(known))
+    return name if isinstance(name, str) and name in known else checks.choice("hold", name, list(known))
 
 
 def project(system: SystemLike, p: ArrayLike, v: ArrayLike, t: float = 0.0, *, projection: Projection | None = None,
@@ -175,15 +175,15 @@ def project(system: SystemLike, p: ArrayLike, v: ArrayLike, t: float = 0.0, *, p
 
 def _options(formulation: str, projection: methods.Projection) -> Any:
     row = methods.row_of("formulations", formulation)
-    return _gateway.settings({"formulation": row, **settings.given(formulation, projection)})
+    return gateway.settings({"formulation": row, **settings.given(formulation, projection)})
 
 
 def _corrected(system: Any, p: Any, v: Any, t: Any, projection: methods.Projection, formulation: str | None,
                holds: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
     of = system_of(system)
     core = core_of(of)
-    p, v = _check.vector("p", p, core.nq), _check.vector("v", v, core.nv)
-    _gateway.project(core, _options(formulation or of._formulation, projection), _check.number("t", t), p, v, *holds)
+    p, v = checks.vector("p", p, core.nq), checks.vector("v", v, core.nv)
+    gateway.project(core, _options(formulation or of._formulation, projection), checks.number("t", t), p, v, *holds)
     return p, v
 
 
@@ -222,5 +222,5 @@ def acceleration(system: SystemLike, p: ArrayLike, v: ArrayLike, t: float = 0.0,
     of = system_of(system)
     core = core_of(of)
     row = methods.row_of("formulations", formulation or of._formulation)
-    return _gateway.acceleration(core, row, settings.on_singular_row(on_singular),
-                                 _check.number("t", t), _check.vector("p", p, core.nq), _check.vector("v", v, core.nv))
+    return gateway.acceleration(core, row, settings.on_singular_row(on_singular),
+                                 checks.number("t", t), checks.vector("p", p, core.nq), checks.vector("v", v, core.nv))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from ... import _gateway
+from ..._private import gateway
 from ...systems.base import BaseSystem
 
 
@@ -21,10 +21,10 @@ class Reading:
         Its attribute `measured` is the system whose measures are read.
     """
 
-    def __init__(self, system: BaseSystem, core: _gateway.OpenRun, ready: Any) -> None:
+    def __init__(self, system: BaseSystem, core: gateway.OpenRun, ready: Any) -> None:
         self._system, self._core, self._ready = system, core, ready
         self._known: dict[Any, Callable[[], Any]] = {}
-        self._measured: _gateway.CoreSystem | None = None
+        self._measured: gateway.CoreSystem | None = None
 
     def __call__(self, name: Any) -> Any:
         """Value of that name: a float, or an array of a vector."""

@@ -28,7 +28,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..._fingerprint import fingerprint
+from ..._private.fingerprint import fingerprint
 from ...errors import CacheWarning
 
 DIGITS = 40             # of the fingerprints that name files

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ..._gateway import VERSION
+from ..._private.gateway import VERSION
 from ..elimination.steps import Order, Solve
 from ..emit.program_writer import Part, Programs
 from ..graph.plain_functions import NAMED

@@ -21,8 +21,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from ... import _gateway
-from ..._fingerprint import fingerprint
+from ..._private import gateway
+from ..._private.fingerprint import fingerprint
 from ...errors import CompilationFailed
 from ...systems.native import get_include
 from . import cache, compilers
@@ -55,7 +55,7 @@ def library(source: str, progress: Callable[[str], Any] = lambda what: None,
     compiler = compilers.find()
     if compiler is None:
         return None
-    symbols = *symbols, _gateway.SET_SINES_OF_LARGE
+    symbols = *symbols, gateway.SET_SINES_OF_LARGE
     source = compilers.exporting(source, symbols)
     line = compiler.line(SOURCE, PRODUCT, get_include(), optimized, [LARGE_SINES_OF_CORE, *defined])
     note = _note(source, line)
@@ -63,7 +63,7 @@ def library(source: str, progress: Callable[[str], Any] = lambda what: None,
     if found is None:
         progress("compiling")
         found = _made(source, line, compiler.environment, note, symbols, meanwhile)
-    _gateway.set_sines_of_large(found)
+    gateway.set_sines_of_large(found)
     return found
 
 
@@ -97,7 +97,7 @@ def _made(source: str, line: list[str], environment: dict[str, str] | None, note
     try:
         found = _load(f"{digest}.so", data)
         for symbol in symbols:
-            _gateway.address_of(found, symbol)
+            gateway.address_of(found, symbol)
     except (OSError, ValueError) as error:
         cache.drop(f"{digest}.so")
         elsewhere = f"if nothing may be executed in {tempfile.gettempdir()}, let TMPDIR name another folder"
@@ -118,14 +118,14 @@ def _load(name: str, data: bytes) -> ctypes.CDLL:
     if cache.AS_WINDOWS:
         with cache.place(name, data) as path:
             if path is not None:
-                return _gateway.load_data(data, path, copied=False)
+                return gateway.load_data(data, path, copied=False)
     try:
-        return _gateway.load_data(data)
+        return gateway.load_data(data)
     except OSError:     # from some folders nothing is executed
         with cache.place(name, data) as path:
             if path is None:
                 raise
-            return _gateway.load_data(data, path)
+            return gateway.load_data(data, path)
 
 
 # ---- the compiler ----

@@ -12,9 +12,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..._gateway.compiled import programs as compiled_programs
-from ..._gateway.compiled.programs import END, FRAME, MINUS_TIMES, SINES, SINES_AT_ONCE, TIMES_MINUS, TIMES_PLUS
-from ..._gateway.mechanisms.blocks import FUNCTIONS, OPERATIONS
+from ..._private.gateway.compiled import programs as compiled_programs
+from ..._private.gateway.compiled.programs import END, FRAME, MINUS_TIMES, SINES, SINES_AT_ONCE, TIMES_MINUS, TIMES_PLUS
+from ..._private.gateway.mechanisms.blocks import FUNCTIONS, OPERATIONS
 from ..elimination.steps import Unwritten
 from ..graph.graph import FIXED
 from ..graph.lowering import Lowering

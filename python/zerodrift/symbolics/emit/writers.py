@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from functools import cache
 from typing import Any
 
-from ..._gateway import TERMS
+from ..._private.gateway import TERMS
 from ..graph.lowering import Operation
 from ..graph.plain_functions import Function
 

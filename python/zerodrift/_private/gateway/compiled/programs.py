@@ -1,0 +1,90 @@
+"""Programs of closed-form functions as structures of the core: csrc/laws/elimination.h."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ...core import ffi, lib
+from ..base import doubles
+
+END, SINES, SINES_AT_ONCE, FRAME = lib.ZD_CODE_END, lib.ZD_CODE_SINES, lib.ZD_SINES_AT_ONCE, lib.ZD_FRAME
+TIMES_PLUS, TIMES_MINUS, MINUS_TIMES = lib.ZD_CODE_TIMES_PLUS, lib.ZD_CODE_TIMES_MINUS, lib.ZD_CODE_MINUS_TIMES
+
+
+def constants(programs: Any, parameters: np.ndarray) -> np.ndarray:
+    """Constants of programs: the parameters, numbers, and what follows from these alone."""
+    given = [*parameters, *programs.numbers]
+    found = np.array([*given, *[0.0] * (programs.constants - len(given))])
+    values = doubles(found, found.size)
+    lib.zd_program_run(_instructions(programs.fixed), values, values + len(given))
+    found.flags.writeable = False
+    return found
+
+
+def closed_forms(programs: Any, orders: Sequence[Any], sizes: tuple[int, int, int, int], embeds: bool) -> tuple[Any, Any]:
+    """A `zd_closed_form` for each vector unit and number of lanes, and what they refer to."""
+    keep: list[Any] = []
+    described = [_described(each, order, programs.constants, sizes, keep) for each, order in
+                 zip(programs.functions, orders, strict=True)]
+    sets = [lib.zd_closed_forms_by_programs[i] for i in range(lib.zd_sets_of_programs)]
+    member = "embedding" if embeds else "order"
+    rows = []
+    for row in (row for row in sets if not embeds or row.embeddings):
+        functions = getattr(row, member)[0]
+        made = ffi.new("zd_elimination[]", len(orders))
+        for i, (of, has_constraints) in enumerate(described):
+            made[i] = of
+            for name in ("accelerate", "correct", "finish", "embed"):
+                if has_constraints or name in ("accelerate", "embed"):
+                    setattr(made[i], name, getattr(functions, name))
+        keep.append(made)
+        rows.append({"unit": row.unit, "lanes": row.lanes, f"{member}s": len(orders), member: made})
+    return ffi.new("zd_closed_form[]", rows), keep
+
+
+def expressions(written: Any, numbers: int, terms: int = 0) -> tuple[Any, Any]:
+    """A `zd_expressions` of so many numbers, without their literals, and what it refers to."""
+    instructions, results = _instructions(written.instructions), ffi.new("uint16_t[]", written.results)
+    made = ffi.new("zd_expressions *", (instructions, numbers + len(written.literals), terms, len(written.results),
+                                        written.frame, results))
+    return made, (instructions, results)
+
+
+def values(expressions: Any, numbers: Sequence[float], t: np.ndarray, x: np.ndarray, xdot: np.ndarray) -> np.ndarray:
+    """Values (k, results) of a `zd_expressions` at t (k,), x and xdot (k, terms)."""
+    out, given = np.empty((len(t), expressions.results)), np.array([*numbers, 0.0])
+    lib.zd_expressions_evaluate_all(expressions, doubles(given, given.size), len(t), *(
+        ffi.from_buffer("double[]", np.ascontiguousarray(each, dtype=float)) for each in (t, x, xdot)), doubles(out, out.size))
+    return out
+
+
+def _described(functions: Any, order: Any, constants: int, sizes: tuple[int, int, int, int], keep: list[Any]) -> tuple[Any, bool]:
+    """A `zd_elimination` without functions, and whether there are constraints."""
+    nq, nv, mh, mn = sizes
+    m = mh + mn
+    program = ffi.new("zd_order_program *", {"nq": nq, "nv": nv, "mh": mh, "m": m, "constants": constants})
+    for name, parts in functions.items():
+        to = getattr(program, name)
+        for i, part in enumerate(parts):
+            instructions, results = _instructions(part.instructions), ffi.new("uint16_t[]", part.results or [0])
+            keep += [instructions, results]
+            to.part[i], to.first[i], to.result[i] = instructions, part.first, results
+            program.frame = max(program.frame, part.first + 2 * len(part.instructions))     # sines are two values each
+    last = functions["embed" if "embed" in functions else "accelerate"]
+    program.pivots = len(order) + nv - m
+    program.D = len(last[lib.ZD_FOUND_PIVOTS].results) - program.pivots
+    program.pdot = len(last[lib.ZD_FOUND_RATES].results) - nv
+    tables = [ffi.new("int[]", list(each) or [0]) for each in (
+        (i for i, solve in enumerate(order) for _ in solve.rows), (row for solve in order for row in solve.rows),
+        (column for solve in order for column in solve.columns))]
+    keep += [program, tables]
+    described = {"solves": len(order), "program": program}
+    described |= dict(zip(("solve", "row", "column"), tables, strict=True))
+    return ffi.new("zd_elimination *", described)[0], bool(order)
+
+
+def _instructions(written: Any) -> Any:
+    return ffi.new("zd_instruction[]", [tuple(each) for each in written])

@@ -1,0 +1,171 @@
+"""Constraints, forces and measures along marker quantities, in the plane and in space, as tables for the core."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple
+
+from ...core import ffi, lib
+from ..base import Card, card_of, text
+
+if TYPE_CHECKING:
+    from typing_extensions import TypeVar
+
+    Scalar = TypeVar("Scalar", default=float)
+else:
+    from typing import TypeVar
+
+    Scalar = TypeVar("Scalar")      # a float, or a node of a graph
+
+Component = TypeVar("Component")
+Triple = tuple[Component, Component, Component]
+ZERO: Any = 0.0
+FORCE_KINDS = {"spring": lib.ZD_FORCE_SPRING, "constant": lib.ZD_FORCE_CONSTANT, "law": lib.ZD_FORCE_LAW}
+OUTPUT_KINDS = {
+    "values": lib.ZD_VALUES, "rates": lib.ZD_RATES, "accelerations": lib.ZD_ACCELERATIONS, "joint force": lib.ZD_JOINT_FORCE,
+    "joint torque": lib.ZD_JOINT_TORQUE, "joint tension": lib.ZD_JOINT_TENSION, "force value": lib.ZD_FORCE_VALUE,
+    "force power": lib.ZD_FORCE_POWER, "drive": lib.ZD_DRIVE_VALUE, "drive power": lib.ZD_DRIVE_POWER,
+    "force sum": lib.ZD_FORCE_SUM, "torque sum": lib.ZD_TORQUE_SUM}
+
+
+def three(components: Iterable[Component]) -> Triple[Component]:
+    """Components of a vector, or rows of a frame, of which there must be three."""
+    x, y, z = components
+    return x, y, z
+
+
+class ElementQuantity(NamedTuple):
+    """A marker quantity of a kind of force element; in space with the indices of the directions of both bodies' frames."""
+
+    kind: str
+    zero: str | None            # "along", "across", "angle", "length": the value as drawn is subtracted; None: nothing is
+    of_first: int = 0
+    of_second: int = 0
+
+
+class ElementKind(NamedTuple):
+    """A kind of force element; see `zd_plane_element_kind` and `zd_space_element_kind`."""
+
+    number: int
+    card: Card
+    quantities: tuple[ElementQuantity, ...]
+    is_spring: bool
+    axes: int                   # 0; 1: the user gives an axis; 3: an axis and a normal are optional
+    at_joint: bool
+    measure: str | None
+    sign: int
+
+
+class Relation(NamedTuple, Generic[Scalar]):
+    """A `zd_relation`: sum of coefficients times marker quantities - constant - slope t = 0, or a user function."""
+
+    quantities: Sequence[int]
+    coefficients: Sequence[Scalar] = ()     # without a law
+    constant: Scalar = ZERO
+    slope: Scalar = ZERO
+    nonholonomic: bool = False
+    law: int = -1
+    joint: int = -1             # to whose force and torque it contributes as its drive
+
+
+class GeneralizedForce(NamedTuple, Generic[Scalar]):
+    """A `zd_generalized_force`; `kind` is a key of FORCE_KINDS."""
+
+    kind: str
+    quantity: int
+    stiffness: Scalar = ZERO
+    damping: Scalar = ZERO
+    value: Scalar = ZERO
+    law: int = -1
+    inputs: Sequence[int] = ()  # marker quantities that the law depends on
+    joint: int = -1             # to whose force and torque it contributes
+    reads: Sequence[str] = ()   # reactions that the law takes after these
+    what: str = ""              # name of the law in messages, such as "torque of motor 'drive'"
+
+
+class OutputSpec(NamedTuple):
+    """A `zd_output_spec`: a measure by its name; `kind` is a key of OUTPUT_KINDS."""
+
+    name: str
+    unit: str
+    kind: str
+    first: int                  # index of the first marker quantity, the joint, generalized force or relation
+    size: int = 1               # number of marker quantities, or of generalized forces in a sum
+    scale: float = 1.0
+    term: int = 0               # of drives: along which of the relation's marker quantities
+
+    def components(self, dimension: int) -> int:
+        """Number of components in the plane or in space."""
+        if self.kind in ("values", "rates", "accelerations"):
+            return self.size
+        if self.kind in ("joint force", "force sum"):
+            return dimension
+        return 2 * dimension - 3 if self.kind in ("joint torque", "torque sum") else 1
+
+
+class Row(NamedTuple):
+    """Origin of a constraint: a joint (component: index among its constraints), or a relation."""
+
+    owner: str                  # "joint" or "relation"
+    number: int
+    component: int
+
+
+def rows_of(rows: Any, m: int) -> tuple[Row, ...]:
+    """Origin of each constraint, from a `zd_constraint_owner *`."""
+    return tuple(Row("joint" if rows[i].owner == lib.ZD_OF_JOINT else "relation", rows[i].index, rows[i].component)
+                 for i in range(m))
+
+
+def law_sizes(tables: Any) -> dict[int, tuple[int, int]]:
+    """Number of marker quantities that each user function takes, and number of values that it returns, by its index."""
+    sizes = {force.law: (len(force.inputs) + len(force.reads), 1) for force in tables.forces if force.law >= 0}
+    return sizes | {row.law: (len(row.quantities), len(row.quantities) + 3) for row in tables.relations if row.law >= 0}
+
+
+def _reading(tables: Any) -> tuple[Any, Any]:
+    """A `zd_reading`, NULL where no user function reads reactions, and what must live as long as it."""
+    forces = sorted((force for force in tables.forces if force.law >= 0), key=lambda force: force.law)
+    if not any(force.reads for force in forces):
+        return ffi.NULL, ()
+    known = list(tables.reactions)
+    pairs = [(force.law, known.index(name)) for force in forces for name in force.reads if name in known]
+    texts = {force.law: ffi.new("char[]", force.what.encode()) for force in forces}
+    functions = 1 + max(law_sizes(tables))
+    names = ffi.new("const char *[]", [texts.get(i, ffi.NULL) for i in range(functions)])
+    reactions, reads = ffi.new("zd_read_reaction[]", list(tables.reactions.values())), ffi.new("zd_read[]", pairs)
+    reading = ffi.new("zd_reading *", {"functions": functions, "count": len(known), "reads": len(pairs), "reaction": reactions,
+                                       "read": reads, "name": names})
+    return reading, (reading, reactions, reads, names, texts)
+
+
+def written_elements(tables: Any, has_laws: bool, laws_know_time: bool) -> tuple[dict[str, Any], Any]:
+    """Fields of a `zd_elements`, and the words that must live as long as the objects made from it."""
+    terms: list[tuple[int, float]] = []
+    relations, forces = [], []
+    for row in tables.relations:
+        relations.append((len(terms), len(row.quantities), row.nonholonomic, row.law, row.constant, row.slope, row.joint))
+        terms += zip(row.quantities, row.coefficients or [1.0] * len(row.quantities), strict=True)
+    for force in tables.forces:
+        forces.append((FORCE_KINDS[force.kind], force.quantity, force.stiffness, force.damping, force.value, force.law,
+                        len(terms), len(force.inputs), force.joint))
+        terms += ((quantity, 1.0) for quantity in force.inputs)
+    units = {unit: ffi.new("char[]", unit.encode()) for unit in {row.unit for row in tables.measures}}
+    names = [ffi.new("char[]", row.name.encode()) for row in tables.measures]
+    measures = [(name, units[row.unit], OUTPUT_KINDS[row.kind], *row[3:])
+                for name, row in zip(names, tables.measures, strict=True)]
+    reading, kept = _reading(tables)
+    elements = {
+        "reading": reading, "terms": len(terms), "relations": len(relations), "forces": len(forces), "measures": len(measures),
+        "term": ffi.new("zd_quantity_term[]", terms), "relation": ffi.new("zd_relation[]", relations),
+        "force": ffi.new("zd_generalized_force[]", forces), "measure": ffi.new("zd_output_spec[]", measures),
+        "law": lib.zd_law_in_python if has_laws else ffi.NULL, "length": tables.length,
+        "laws_know_time": has_laws and laws_know_time}
+    return elements, (names, units, kept)
+
+
+def element_kinds(count: int, kind_of: Any, quantities: Any) -> dict[str, ElementKind]:
+    """A table of force elements by name; `quantities` reads those of an entry."""
+    return {kind.card.name: kind for kind in (
+        ElementKind(number, card_of(c.card), quantities(c), bool(c.is_spring), c.axes, bool(c.at_joint),
+                    text(c.measure) if c.measure else None, c.sign) for number in range(count) for c in [kind_of(number)])}

@@ -1,0 +1,72 @@
+"""User functions of mechanisms: calls of Python functions by the core with their errors stored, and expressions as programs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ....errors import WrongValue
+from ...core import ffi, lib
+from ..base import CALLBACK, DONE, doubles
+
+Law = Callable[[int, float, np.ndarray, np.ndarray], Any]
+
+
+class LawOwner:
+    """Evaluation of the user functions of one run; stores exceptions that they raise, and errors for values that are not finite.
+
+    Attributes
+    ----------
+    error : exception or None
+        Raised by a user function, or else `refusal`.
+    refusal : WrongValue or None
+        For the last values that were not finite, which shorter steps may have avoided since.
+    """
+
+    def __init__(self, law: Law, sizes: dict[int, tuple[int, int]]) -> None:
+        self._error: BaseException | None = None
+        self.refusal: WrongValue | None = None
+        self._law, self._sizes = law, sizes
+
+    @property
+    def error(self) -> BaseException | None:
+        return self._error or self.refusal
+
+    def evaluate(self, law: int, t: float, x: Any, xdot: Any, out: Any) -> int:
+        """Evaluate a user function for the core; `sizes` are the numbers of its marker quantities and results."""
+        try:
+            k, size = self._sizes[law]
+            values = np.asarray(self._law(law, t, np.array(ffi.unpack(x, k)), np.array(ffi.unpack(xdot, k))), dtype=float)
+            if values.shape != (size,):
+                raise WrongValue(f"law {law} must give {size} numbers, not an array of shape {values.shape}", "shape")
+            for i, value in enumerate(values):
+                out[i] = value
+        except BaseException as error:      # raised again where the run was started
+            if isinstance(error, WrongValue) and error.code == "not-finite":
+                self.refusal = error
+                return lib.ZD_NOT_FINITE
+            self._error = error
+            return CALLBACK
+        return DONE
+
+
+def table_of_programs(law: Law, sizes: dict[int, tuple[int, int]]) -> Any:
+    """The core's array of user functions that are expressions, NULL if there are none, and the memory to keep with it.
+
+    Where `law` has a method `programs`, this gives for each law a `zd_expressions` with what it refers to, and its numbers; or
+    None.
+    """
+    found = law.programs(sizes) if hasattr(law, "programs") else []
+    if not any(found):
+        return ffi.NULL, None
+    arrays = [each and each[1].copy() for each in found]      # inputs are written into those of one run
+    kept = [array if array is None else doubles(array, array.size) for array in arrays]
+    rows = [(each[0][0], numbers) if each else (ffi.NULL, ffi.NULL) for each, numbers in zip(found, kept, strict=True)]
+    return ffi.new("zd_law_program[]", rows), (kept, found)
+
+
+@ffi.def_extern(error=lib.ZD_CALLBACK)
+def zd_law_in_python(owner: Any, *arguments: Any) -> int:
+    return ffi.from_handle(owner).evaluate(*arguments)
