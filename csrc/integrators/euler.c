@@ -22,6 +22,5 @@ const zd_integrator zd_euler = {
         .reference = "E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd edition, Springer, "
                      "1993, section I.7",
     },
-    .decay = 2,
     ZD_RUNGE_KUTTA,
 };

@@ -23,6 +23,5 @@ const zd_integrator zd_heun = {
         .reference = "K. Heun, Neue Methoden zur approximativen Integration, Zeitschrift fuer Mathematik und Physik 45 (1900) "
                      "23-38",
     },
-    .decay = 2,
     ZD_RUNGE_KUTTA,
 };

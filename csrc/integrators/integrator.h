@@ -20,7 +20,7 @@ typedef struct zd_integrator {
     void (*set_tolerance)(void *self, double rtol, double atol);
     /* h <- the longest step from y at t whose error is at most 1 in units of scale, computed before the step; NULL: not known before. */
     int (*predict_step)(void *self, const zd_rate *rate, double t, const double *y, const double *scale, double *h);
-    double decay;           /* the largest |lambda h| for which y' = lambda y with lambda < 0 decays; 0: any */
+    double decay;           /* with an error estimate: the largest |lambda h| for which y' = lambda y with lambda < 0 decays; 0: any */
     /* Error estimate of the step just made to y at t1, RMS in units of scale, and |lambda h| of the fastest component there, 0: not
      * known. NULL if card.error_order is 0. */
     int (*error)(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm,

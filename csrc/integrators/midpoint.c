@@ -23,6 +23,5 @@ const zd_integrator zd_midpoint = {
         .reference = "C. Runge, Ueber die numerische Aufloesung von Differentialgleichungen, Mathematische Annalen 46 (1895) "
                      "167-178",
     },
-    .decay = 2,
     ZD_RUNGE_KUTTA,
 };

@@ -25,6 +25,5 @@ const zd_integrator zd_rk4 = {
         .reference = "W. Kutta, Beitrag zur naeherungsweisen Integration totaler Differentialgleichungen, Zeitschrift fuer "
                      "Mathematik und Physik 46 (1901) 435-453",
     },
-    .decay = 2.785,
     ZD_RUNGE_KUTTA,
 };

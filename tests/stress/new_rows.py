@@ -71,7 +71,6 @@ const zd_integrator zd_ralston = {
         .reference = "A. Ralston, Runge-Kutta methods with minimum error bounds, Mathematics of Computation 16 (1962) 431-437",
         .parameters = 1, .parameter = parameters,
     },
-    .decay = 2,
     .create = create,
     .step = step,
 };

@@ -205,7 +205,8 @@ typedef struct zd_card {
     const char *equations;   /* "(8), (25)" */
     int order;               /* order of an integrator; else 0 */
     int error_order;         /* order of its error estimate; 0: no estimate, fixed steps only */
-    double stability;        /* largest omega h at which a slightly damped oscillation does not grow; 0: unbounded */
+    double stability;        /* limit of omega h, beyond which fixed steps are warned of: the largest at which oscillations of some damping do
+                              * not grow, such as the end of the interval of stability on the negative real axis; 0: unbounded */
     const char *description; /* effect and recommended use, in a few sentences; may be NULL */
     const char *reference;   /* literature; may be NULL */
     int parameters;          /* number of parameters of a formulation, integrator or correction; a kind of system has its own below */

@@ -79,13 +79,13 @@ typedef struct zd_plane_joint_kind {
     enum zd_inboard inboard;
     int rows;
     zd_plane_joint_row row[ZD_JOINT_ROWS];    /* the holonomic ones first */
-    const char *coordinate;             /* name of the marker quantity along which drives, springs and damping act; NULL: none */
+    const char *coordinate;             /* "angle" or "displacement", along which drives, springs and damping act; NULL: none */
     enum zd_plane_quantity_kind quantity;           /* its kind */
     enum zd_zero zero;
     int takes_axis, takes_length;       /* 1 if the user gives an axis, a length */
     int at_contact;                     /* 1 if its force acts at the contact, `length` below the second body's point against n; 0: at that
                                          * point */
-    const char *tension;                /* name of the scalar measure of its first row's force, positive in tension; NULL: none */
+    const char *tension;                /* name of the measure of its force along the line of its points, positive in tension; NULL: none */
 } zd_plane_joint_kind;
 
 int zd_plane_joint_kinds(void);

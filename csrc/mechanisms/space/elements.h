@@ -82,7 +82,7 @@ typedef struct zd_space_joint_kind {
     int axes;                   /* number of directions that the user gives: 0, 1 (an axis), or 2 (perpendicular) */
     int rolls;                  /* 1 if it is a contact at C, where its force acts; o of its marker quantities is the axis */
     int takes_length;           /* 1 if the user gives `length`: m of a rod, m/rad of a screw */
-    const char *tension;        /* name of the scalar measure of its first row's force, positive in tension; NULL: none */
+    const char *tension;        /* name of the measure of its force along the line of its points, positive in tension; NULL: none */
     int is_inboard;             /* 1 if it can be an inboard joint; otherwise it is constraint rows in all coordinates */
     int freedoms;
     zd_space_freedom freedom[ZD_SPACE_FREEDOMS];

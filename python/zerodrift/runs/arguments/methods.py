@@ -91,7 +91,7 @@ class Row(gateway.Card):
     order, error_order : int
         Order of an integrator and of its error estimate; 0: it has none.
     stability : float
-        Stability limit of an integrator: the largest omega h at which a somewhat damped motion does not grow; 0: it has none.
+        Largest omega h of fixed steps without a `StabilityWarning`; 0: any. A motion with little damping may grow before.
     parameters : tuple of Parameter
         Parameters that may be set.
     settings : type
@@ -217,8 +217,8 @@ def formulations(system: SystemLike | None = None) -> dict[Formulation, Row]:
 def integrators(system: SystemLike | None = None) -> dict[Integrator, Row]:
     """Integrators by name: all of them, or those that suit a system.
 
-    `order` is the order of the method; `stability` is the largest product omega h of angular frequency and step at which
-    a slightly damped oscillation does not grow, 0 if there is no such limit.
+    `order` is the order of the method; `stability` is the largest product omega h of angular frequency and step without
+    a `StabilityWarning`, 0 if there is no such limit.
 
     Examples
     --------
