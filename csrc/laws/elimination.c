@@ -73,24 +73,14 @@ const int zd_sets_of_programs = ZD_COUNT_OF_SETS;
 
 void zd_program_run(const zd_instruction *next, double *value, double *to) { run_0_1(next, value, to); }
 
-void zd_expressions_evaluate(const zd_expressions *self, const double *numbers, double t, const double *x, const double *xdot, double *out)
+void zd_expressions_evaluate(const zd_expressions *self, const double *numbers, int64_t states, const double *t, const double *x,
+                             const double *xdot, double *out)
 {
-    const size_t count = (size_t)self->numbers, terms = (size_t)self->terms;
-    ZD_VALUES(double, value, self->frame);
-    double *time = value + count;
-    memcpy(value, numbers, count * sizeof *value);
-    *time = t;
-    if (terms) {
-        memcpy(time + 1, x, terms * sizeof *value);
-        memcpy(time + 1 + terms, xdot, terms * sizeof *value);
-    }
-    zd_program_run(self->first, value, time + 1 + 2 * terms);
-    for (int i = 0; i < self->results; i++) out[i] = value[self->result[i]];
-}
-
-void zd_expressions_evaluate_all(const zd_expressions *self, const double *numbers, int64_t states, const double *t, const double *x,
-                                 const double *xdot, double *out)
-{
-    for (int64_t i = 0; i < states; i++)
-        zd_expressions_evaluate(self, numbers, t[i], x + i * self->terms, xdot + i * self->terms, out + i * self->results);
+    int64_t i = 0;
+#if (ZD_SETS) & ZD_SET_BASELINE_2
+    for (; i + 2 <= states; i += 2)
+        express_0_2(self, numbers, t + i, x + i * self->terms, xdot + i * self->rates, out + i * self->results);
+#endif
+    for (; i < states; i++)
+        express_0_1(self, numbers, t + i, x + i * self->terms, xdot + i * self->rates, out + i * self->results);
 }

@@ -75,6 +75,25 @@ ZD_ON_UNIT static void ZD_NAMED(run)(const zd_instruction *next, zd_real *value,
 #undef ZD_B
 #undef ZD_C
 
+#if !ZD_UNIT
+/* Values of expressions at as many states as there are lanes, side by side. */
+static void ZD_NAMED(express)(const zd_expressions *self, const double *numbers, const double *t, const double *x, const double *xdot,
+                              double *out)
+{
+    ZD_VALUES(zd_real, value, self->frame);
+    zd_real *to = value;
+    const double *const given[] = {t, x, xdot};
+    const int count[] = {1, self->terms, self->rates};
+    for (int i = 0; i < self->numbers; i++) *to++ = ZD_SPLAT(numbers[i]);
+    for (int part = 0; part < 3; part++)
+        for (int i = 0; i < count[part]; i++, to++)
+            for (int lane = 0; lane < ZD_LANES; lane++) ZD_LANE(*to, lane) = given[part][lane * count[part] + i];
+    ZD_NAMED(run)(self->first, value, to);
+    for (int lane = 0; lane < ZD_LANES; lane++)
+        for (int i = 0; i < self->results; i++) *out++ = ZD_LANE(value[self->result[i]], lane);
+}
+#endif
+
 /* ---- functions ---- */
 
 typedef struct ZD_NAMED(frame) {

@@ -41,10 +41,10 @@ typedef struct zd_instruction {
     uint16_t a, b, c;
 } zd_instruction;
 
-/* Expressions of numbers of their own, t, and quantities x with their rates: a frame has these in this order, then values. */
+/* Expressions of numbers of their own, t, quantities x and their rates: a frame has these in this order, then values. */
 typedef struct zd_expressions {
     const zd_instruction *first;
-    int numbers, terms, results;
+    int numbers, terms, rates, results;
     int frame;                  /* values, at most ZD_FRAME */
     const uint16_t *result;     /* (results,) places in the frame */
 } zd_expressions;
@@ -57,11 +57,9 @@ enum { ZD_FRAME = 8192 };
 #define ZD_VALUES(type, name, frame) type name[ZD_FRAME]
 #endif
 
-/* out (results,) <- values of expressions of numbers (numbers,) t, x and xdot (terms,); x and xdot may be NULL without terms. */
-void zd_expressions_evaluate(const zd_expressions *self, const double *numbers, double t, const double *x, const double *xdot, double *out);
-/* The same at so many states, side by side. */
-void zd_expressions_evaluate_all(const zd_expressions *self, const double *numbers, int64_t states, const double *t, const double *x,
-                                 const double *xdot, double *out);
+/* out (states, results) <- values of expressions of numbers (numbers,) at t (states,), x (states, terms) and xdot (states, rates). */
+void zd_expressions_evaluate(const zd_expressions *self, const double *numbers, int64_t states, const double *t, const double *x,
+                             const double *xdot, double *out);
 /* Runs instructions without units; values go to `to` and the places after it, within the frame `value`. */
 void zd_program_run(const zd_instruction *next, double *value, double *to);
 /* The value of an operation on values, one that blocks have, too. */

@@ -17,7 +17,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
 import zerodrift as zd
 from few_bodies import cart_pole
-from measuring import record
+from measuring import least, record, timed
 
 RUNS, CALLS, ROUNDS, STEPS = 1024, 60, 30, 1_000_000
 FORCES = np.random.default_rng(1).uniform(-1, 1, (CALLS, RUNS))
@@ -90,6 +90,16 @@ def rates():
         yield f"1024 cart-poles, {steps} steps a call: steps a second of one processor", rate, "1e6/s", None
 
 
+def readings():
+    """Rows (what, value, unit, limit) of two measures of all runs, in steps."""
+    for compiled in (None, True):
+        runs = zd.ManyRuns(zd.models.four_bar().system(compiled=compiled), runs=64, step=1e-3)
+        step, read = least(10 * ROUNDS, *map(timed, (lambda runs=runs: runs.step(10), lambda runs=runs: [
+            runs[f"coupler.end.{each}"] for each in ("position", "velocity")])))
+        how = "compiled" if compiled else "by programs"
+        yield f"64 four-bars, {how}: position and velocity of a point", 10 * read / step, "steps", 2.0
+
+
 def program():
     """Rows of the program in C."""
     with tempfile.TemporaryDirectory() as name:
@@ -104,4 +114,4 @@ def program():
 
 
 if __name__ == "__main__":
-    record("open_runs", [*rates(), *program()], ("what", "value", "unit", "at most"))
+    record("open_runs", [*rates(), *readings(), *program()], ("what", "value", "unit", "at most"))

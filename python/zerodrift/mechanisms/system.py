@@ -210,8 +210,8 @@ class MechanismSystem(Reported):
     def _precise_functions(self, vector: str = "baseline") -> Precise | None:
         return self._written.precise(vector) if self.compiled else None
 
-    def _program_of(self, name: str, component: int) -> tuple[Any, int, np.ndarray] | None:
-        return measure_program(self._started_tables, name, component)
+    def _program_of(self, name: str) -> tuple[Any, list[int], np.ndarray] | None:
+        return measure_program(self._started_tables, name)
 
     @functools.cached_property
     def _formulation(self) -> str:      # type: ignore[override]

@@ -182,10 +182,11 @@ def _reader(what: str, reading: Reading, system: BaseSystem) -> Value:
         case known_events.NUMBER:
             return lambda t, p, v: Decimal(reading.number)
     name = system._watching.core.measures[reading.entry].name
-    program = system._program_of(name, reading.component)
+    program = system._program_of(name)
     if program is None:
         raise WrongValue(f"{what} must be a measure of positions or velocities, which {name!r} is not")
-    return Program(*program).value
+    lowering, results, parameters = program
+    return Program(lowering, results[reading.component], parameters).value
 
 
 def _expression(what: str, given: Any, system: BaseSystem, of: Mapping[str, Any]) -> Value:

@@ -139,9 +139,9 @@ class Defaults:
         """Functions of the system in double-double arithmetic; None: it has none."""
         return None
 
-    def _program_of(self, name: str, component: int) -> tuple[Any, int, np.ndarray] | None:
-        """Operations of a component of a measure of positions or velocities, as those of a symbolic graph: the lowering, the
-        operation whose value it is, and the parameters (k, 2) that are read, as pairs of doubles; None for other measures.
+    def _program_of(self, name: str) -> tuple[Any, list[int], np.ndarray] | None:
+        """Operations of a measure of positions or velocities, as those of a symbolic graph: the lowering, the operations whose
+        values its components are, and the parameters (k, 2) that are read, as pairs of doubles; None for other measures.
         """
         return None
 

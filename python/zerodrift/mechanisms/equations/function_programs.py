@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from ..._private.gateway.compiled import programs
 from ...symbolics.elimination.steps import Unwritten
 from ...symbolics.emit import program_writer
 from ...symbolics.graph.law_terms import Leaves
@@ -43,8 +42,7 @@ def program(row: Any, k: int) -> Program | None:
 
 def _made(graph: Any, results: Sequence[Any], numbers: int, k: int) -> tuple[Any, list[float]]:
     lowering = Lowering(graph)
-    written = program_writer.expressions(lowering, [lowering.lower(node) for node in results], numbers, k)
-    return programs.expressions(written, numbers, k), written.literals
+    return program_writer.expressions(lowering, [lowering.lower(node) for node in results], numbers, k, k)
 
 
 def nodes_of(row: Any, k: int) -> tuple[Any, Any, list[float]]:

@@ -215,8 +215,8 @@ class Written:
         return self._compiled(closed_form, vector) if self.is_compiled and closed_form.library(vector) else self.core
 
 
-def measure_program(tables: Tables, name: str, component: int) -> tuple[Any, int, np.ndarray] | None:
-    """Operations of a component of a measure of positions or velocities: the lowering, the operation whose value it is, and the
+def measure_program(tables: Tables, name: str) -> tuple[Any, list[int], np.ndarray] | None:
+    """Operations of a measure of positions or velocities: the lowering, the operations whose values its components are, and the
     parameters (k, 2) that are read, as pairs of doubles; None for other measures.
     """
     from ...symbolics.graph.lowering import Lowering
@@ -225,17 +225,15 @@ def measure_program(tables: Tables, name: str, component: int) -> tuple[Any, int
     measure = next((each for each in measures if each.name == name), None)
     if measure is None:
         return None
-    core, laws = tables.core(quantities, measures), tables.laws
-    reader = _reader(laws)
+    core, reader = tables.core(quantities, measures), Plain()
     number = nodes.Numbering(reader.graph)
     room, planned = (space_nodes, space_plans.plan_of) if isinstance(core, SpaceCore) else (nodes, plan_of)
-    plan = planned(core, [measure.first + component])
+    plan = planned(core, range(measure.first, measure.first + measure.size))
     plan, own = room.with_nodes(plan, number), {key: number.new(value) for key, value in tables.parameters.items()}
-    equations = room.Equations(plan, reader, (core.nq, core.nv, core.mh, core.mn), laws, own)
-    value, rate = equations.readings[-1]
-    lowering = Lowering(reader.graph, equations.values)
-    frames = room.frames_of(plan)
-    return lowering, lowering.lower(rate if measure.kind == "rates" else value), _pairs(np.array(number.values), frames)
+    equations = room.Equations(plan, reader, (core.nq, core.nv, core.mh, core.mn), tables.laws, own)
+    lowering, frames = Lowering(reader.graph, equations.values), room.frames_of(plan)
+    found = [lowering.lower(rate if measure.kind == "rates" else value) for value, rate in equations.readings[-measure.size:]]
+    return lowering, found, _pairs(np.array(number.values), frames)
 
 
 def _pairs(values: np.ndarray, frames: Any) -> np.ndarray:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import contextlib
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import Any, Unpack
 
 import numpy as np
@@ -14,7 +15,9 @@ import numpy as np
 from ..._private import checks, gateway
 from ..._private.types import ArrayLike, Inputs, MeasureLike, Settings, SystemLike
 from ...errors import WrongValue
+from ...symbolics.emit import program_writer
 from ...systems.base import closed_form_core_of
+from ...systems.measure_values import Place
 from ..arguments.inputs import Speeds, refuse_unknown
 from ..arguments.settings import known, with_names
 from ..states.reading import Reading
@@ -106,6 +109,7 @@ class ManyRuns:
         self._pool: ThreadPoolExecutor | None = None
         self._core = gateway.ManyOpenRuns([each.created(gateway.OpenRun) for each in self._ready], self._ready, self._parts)
         self._readings: dict[int, Reading] = {}
+        self._readers: dict[Any, Callable[[], np.ndarray]] = {}
 
     def __len__(self) -> int:
         return len(self._ready)
@@ -174,20 +178,47 @@ class ManyRuns:
         return (not is_by_others and beyond_reach(ready.of, run, self.settings, ready.span)) or run.message
 
     def __getitem__(self, measure: MeasureLike) -> np.ndarray:
-        """Value in every run (runs,), or of a vector (runs, 2) or (runs, 3), by name, as of `Run`."""
+        """Value in every run (runs,), or of a vector (runs, 2) or (runs, 3), by name, as of `Run`.
+
+        Measures of positions and velocities may differ from its values by rounding, where the equations are in closed form.
+        """
         name: Any = getattr(measure, "name", measure)
+        read = self._readers.get(name)
+        if read is None:
+            read = self._readers[name] = self._reader(name)
+        return read()
+
+    def _reader(self, name: Any) -> Callable[[], np.ndarray]:
+        """Function that returns the values of that name."""
+        core = self._core
         if name in self._places:
-            return self.inputs[:, self._places[name]].copy()
-        place = self._ready[0].of._watching.view(name)
-        if place and (values := self._core.measure(place.number)) is not None:
-            if place.form in (None, np.asarray):
-                return place.pick(values)
-            return np.concatenate([place.pick(each) for each in values[:, None]])      # an orientation follows the sample before
+            return lambda: self.inputs[:, self._places[name]].copy()
+        if place := self._ready[0].of._watching.view(name):
+            return partial(self._part, name, place, self._by_program(place.number) or partial(core.measure, place.number))
         found = self.system._columns_of.get(name, ())
         if len(found) == 1 and found[0][0] < 2:
             group, column = found[0]
-            return (self._core.v if group else self._core.p)[:, column].copy()
+            return lambda: (core.v if group else core.p)[:, column].copy()
+        return partial(self._by_each, name)
+
+    def _by_each(self, name: Any) -> np.ndarray:
         return np.array([self._reading(i)(name) for i in range(len(self))])
+
+    def _part(self, name: Any, place: Place, values: Callable[[], np.ndarray | None]) -> np.ndarray:
+        """The part of the values of a measure that has that name."""
+        if (found := values()) is None:
+            return self._by_each(name)
+        if place.form in (None, np.asarray):
+            return place.pick(found)
+        return np.concatenate([place.pick(each) for each in found[:, None]])      # an orientation follows the sample before
+
+    def _by_program(self, number: int) -> Callable[[], np.ndarray] | None:
+        """Function that returns a measure by a program; None: it has none, or runs differ, or are not in closed form."""
+        ready, core = self._ready[0], self._core
+        if not ready.source.has_closed_form or any(each.of is not ready.of for each in self._ready):
+            return None
+        found = ready.of._program_of(ready.of._watching.core.measures[number].name)
+        return found and program_writer.reader(*found, core.t, core.p, core.v)
 
     def _reading(self, i: int) -> Reading:
         run = self._core[i]         # which brings it to its present state

@@ -126,17 +126,8 @@ def _parts(lowering: Lowering, outputs: dict[str, list[int]], constants: dict[in
     return found
 
 
-class Expressions(NamedTuple):
-    """Program of expressions: numbers that follow those given, instructions, and the places of the results."""
-
-    literals: list[float]
-    instructions: list[Instruction]
-    results: list[int]
-    frame: int                  # values
-
-
-def expressions(lowering: Lowering, results: list[int], numbers: int, terms: int = 0) -> Expressions:
-    """Program of expressions of so many parameters, t, and p and v of so many measures, as csrc/laws/program.h has them.
+def expressions(lowering: Lowering, results: list[int], numbers: int, terms: int = 0, rates: int = 0) -> tuple[Any, list[float]]:
+    """A `zd_expressions` of so many parameters, t, and entries of p and v, with what it refers to; and the numbers that follow.
 
     Raises
     ------
@@ -150,25 +141,34 @@ def expressions(lowering: Lowering, results: list[int], numbers: int, terms: int
     begin = {"parameter": 0, "t": t, "p": t + 1, "v": t + 1 + terms}
     places = {number: begin[arguments[0]] + arguments[1] for number, code, arguments in used if code == "leaf"}
     places |= {number: numbers + i for i, number in enumerate(literals)}
-    writer = _Writer(program, places, t + 1 + 2 * terms)
+    writer = _Writer(program, places, t + 1 + terms + rates)
     part = writer.part(results, program.needed(["results"]))
     if writer.place > FRAME:
         raise Unwritten(f"it would take more than {FRAME} values")
-    return Expressions([*literals.values()], part.instructions, part.results, writer.place)
+    return compiled_programs.expressions(part, t, terms, rates, writer.place), [*literals.values()]
 
 
 def evaluator(lowering: Lowering, outputs: Mapping[Any, list[int]], parameters: np.ndarray,
               nq: int) -> Callable[[np.ndarray, np.ndarray], dict[str, np.ndarray]]:
     """A function of t (k,) and p (k, nq) that gives (k, size) of each output, which depends on no velocity."""
-    written = expressions(lowering, [number for numbers in outputs.values() for number in numbers], len(parameters), nq)
-    program, keep = compiled_programs.expressions(written, len(parameters), nq)
+    program, literals = expressions(lowering, [number for numbers in outputs.values() for number in numbers], len(parameters), nq)
     ends = np.cumsum([len(numbers) for numbers in outputs.values()])
 
-    def evaluate(t: np.ndarray, p: np.ndarray, keep: Any = keep) -> dict[str, np.ndarray]:
-        found = compiled_programs.values(program, [*parameters, *written.literals], t, p, np.zeros_like(p))
+    def evaluate(t: np.ndarray, p: np.ndarray) -> dict[str, np.ndarray]:
+        found = compiled_programs.reader(program, [*parameters, *literals], t, p, t[:0])()
         return dict(zip(outputs, np.split(found, ends[:-1], axis=1), strict=True))
 
     return evaluate
+
+
+def reader(lowering: Lowering, results: list[int], parameters: np.ndarray, t: np.ndarray, p: np.ndarray,
+           v: np.ndarray) -> Callable[[], np.ndarray] | None:
+    """Function that returns values (k, results) at the present t (k,), p (k, nq) and v (k, nv); None: there is no program."""
+    try:
+        program, literals = expressions(lowering, results, len(parameters), p.shape[1], v.shape[1])
+    except Unwritten:
+        return None
+    return compiled_programs.reader(program, [*parameters[:, 0], *literals], t, p, v)
 
 
 class _Writer:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -45,20 +45,24 @@ def closed_forms(programs: Any, orders: Sequence[Any], sizes: tuple[int, int, in
     return ffi.new("zd_closed_form[]", rows), keep
 
 
-def expressions(written: Any, numbers: int, terms: int = 0) -> tuple[Any, Any]:
-    """A `zd_expressions` of so many numbers, without their literals, and what it refers to."""
-    instructions, results = _instructions(written.instructions), ffi.new("uint16_t[]", written.results)
-    made = ffi.new("zd_expressions *", (instructions, numbers + len(written.literals), terms, len(written.results),
-                                        written.frame, results))
+def expressions(part: Any, numbers: int, terms: int, rates: int, frame: int) -> tuple[Any, Any]:
+    """A `zd_expressions`, and what it refers to."""
+    instructions, results = _instructions(part.instructions), ffi.new("uint16_t[]", part.results)
+    made = ffi.new("zd_expressions *", (instructions, numbers, terms, rates, len(part.results), frame, results))
     return made, (instructions, results)
 
 
-def values(expressions: Any, numbers: Sequence[float], t: np.ndarray, x: np.ndarray, xdot: np.ndarray) -> np.ndarray:
-    """Values (k, results) of a `zd_expressions` at t (k,), x and xdot (k, terms)."""
-    out, given = np.empty((len(t), expressions.results)), np.array([*numbers, 0.0])
-    lib.zd_expressions_evaluate_all(expressions, doubles(given, given.size), len(t), *(
-        ffi.from_buffer("double[]", np.ascontiguousarray(each, dtype=float)) for each in (t, x, xdot)), doubles(out, out.size))
-    return out
+def reader(program: tuple[Any, Any], numbers: Sequence[float], *states: np.ndarray) -> Callable[[], np.ndarray]:
+    """Function that returns values (k, results) of `expressions` at the present t (k,), x (k, terms) and xdot (k, rates)."""
+    made, given, count = program[0], np.array([*numbers, 0.0]), len(states[0])
+    memory = [doubles(each, each.size) for each in (given, *(np.ascontiguousarray(each, dtype=float) for each in states))]
+
+    def read(keep: Any = program) -> np.ndarray:
+        out = np.empty((count, made.results))
+        lib.zd_expressions_evaluate(made, memory[0], count, *memory[1:], doubles(out, out.size))
+        return out
+
+    return read
 
 
 def _described(functions: Any, order: Any, constants: int, sizes: tuple[int, int, int, int], keep: list[Any]) -> tuple[Any, bool]:
