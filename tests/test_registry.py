@@ -39,6 +39,10 @@ def test_integrators_say_how_good_they_are():
     assert all(card.order >= 1 for card in zd.integrators().values())
 
 
+def test_no_two_integrators_have_the_same_colour():
+    assert len(set(zd.plot.COLOURS)) == len(zd.plot.COLOURS) >= len(zd.integrators()), "a colour is missing in plot/style.py"
+
+
 @pytest.mark.parametrize("name", zd.systems.__all__)
 def test_systems_are_documented_from_their_cards(name):
     text, card = " ".join(getattr(zd.systems, name).__doc__.split()), CARDS[f"systems {name}"]

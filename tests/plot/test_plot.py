@@ -339,10 +339,6 @@ def test_axes_that_are_none(wrong):
         zd.plot.motion(SOL, SOL)
 
 
-def test_no_two_integrators_have_the_same_colour():
-    assert len(set(zd.plot.COLOURS)) == len(zd.plot.COLOURS) >= len(zd.integrators())
-
-
 THREE = ["alpha1", "alpha2", "alpha3"]
 SIX = [*THREE, "alpha1_dot", "alpha2_dot", "alpha3_dot"]
 DRAWN = {"motion": plot.motion, "violation": plot.violation, "energy": plot.energy,

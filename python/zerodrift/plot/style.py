@@ -14,10 +14,10 @@ from matplotlib.rcsetup import cycler
 from .._private import checks
 from .._private.gateway import Variable
 
-# Okabe and Ito's colours, told apart with any colour vision, dark ones first; the last four are Tol's wine, olive,
-# indigo and teal. There have to be as many as there are integrators.
+# Okabe and Ito's colours, told apart with any colour vision, dark ones first; the last six are Tol's wine, olive, indigo, teal,
+# green and purple. Each integrator has one; the last two are for those to come.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9", "#882255", "#999933", "#332288",
-           "#44AA99")
+           "#44AA99", "#117733", "#AA4499")
 
 
 def panels(rows: int, columns: int, width: float = 8.0, height: float = 5.0,
@@ -47,7 +47,7 @@ def given_axes(ax: Any, name: str = "ax") -> Axes:
 
 
 def styled(ax: Axes) -> Axes:
-    ax.set_prop_cycle(cycler(linestyle=["-", "--", ":"]) * cycler(color=COLOURS))     # the twelfth line is dashed
+    ax.set_prop_cycle(cycler(linestyle=["-", "--", ":"]) * cycler(color=COLOURS))     # later lines are dashed
     ax.spines[["top", "right"]].set_visible(False)
     ax.grid(True, alpha=0.3, linewidth=0.6)
     return ax
