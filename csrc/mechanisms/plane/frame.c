@@ -2,65 +2,25 @@
 #include "plan.h"
 #include "tree.h"
 
-/* Offset of the next `count` structures of `bytes` each. */
-static size_t next(size_t *used, int count, size_t bytes)
+void zd_plane_frame_divide(zd_plane *self)
 {
-    const size_t here = *used;
-    *used += (size_t)count * bytes;
-    return here;
-}
-
-int zd_plane_frame_divide(const zd_plane *self, zd_plane_frame_at *to)
-{
-    size_t used = 0;
-    const int bodies = self->tree.bodies + 1, longest = self->elements.longest;
-    to->arm = next(&used, 2 * self->revolutes, sizeof(zd_vector));     /* these two are first: see products.c */
-    to->spread = next(&used, self->packing ? 3 * bodies : 0, sizeof(double));
-    to->pull = next(&used, self->lines, sizeof(zd_plane_pull));
-    to->place = next(&used, self->lines ? 3 * bodies : 0, sizeof(double));
-    to->axis = next(&used, self->packing ? bodies : 0, sizeof(zd_vector));
-    to->pose = next(&used, bodies, sizeof(zd_plane_pose));
-    to->twist = next(&used, bodies, sizeof(zd_plane_twist));
-    to->wrench = next(&used, bodies, sizeof(zd_plane_wrench));
-    to->composite = next(&used, bodies, sizeof(zd_plane_composite));
-    to->spin = next(&used, bodies, sizeof(zd_spin));
-    to->sines = next(&used, 3 * bodies, sizeof(double));
-    to->is_placed = next(&used, 1, sizeof(double));
-    to->is_moving = next(&used, 1, sizeof(double));
-    to->is_least = next(&used, 1, sizeof(double));
-    to->least = next(&used, self->elements.m, sizeof(double));
-    to->row = next(&used, self->tree.nv, sizeof(double));
-    to->x = next(&used, longest, sizeof(double));
-    to->xdot = next(&used, longest, sizeof(double));
-    to->out = next(&used, longest + 3, sizeof(double));
-    return (int)(used / sizeof(double));
+    const size_t bodies = (size_t)self->tree.bodies + 1, longest = (size_t)self->elements.longest, one = sizeof(double);
+    const size_t packed = self->packing ? bodies : 0, composites = bodies - packed;
+    const size_t bytes[ZD_PLANE_ARRAYS] = {
+        2 * (size_t)self->revolutes * sizeof(zd_vector), 3 * packed * one, (size_t)self->lines * sizeof(zd_plane_pull),
+        self->lines ? 3 * bodies * one : 0, packed * sizeof(zd_vector), bodies * sizeof(zd_plane_pose), bodies * sizeof(zd_plane_twist),
+        bodies * sizeof(zd_plane_wrench), composites * sizeof(zd_plane_composite), 3 * bodies * one, one, longest * one, longest * one,
+        (longest + 3) * one, one, bodies * sizeof(zd_spin), one, (size_t)self->elements.m * one, (size_t)self->tree.nv * one};
+    for (int i = 0; i < ZD_PLANE_ARRAYS; i++) self->frame_at[i + 1] = self->frame_at[i] + bytes[i];
 }
 
 zd_plane_frame zd_plane_frame_of(const zd_plane *mechanism, double *scratch)
 {
-    const zd_plane_frame_at *at = &mechanism->frame_at;
-    char *begin = (char *)scratch;
-    return (zd_plane_frame){
-        .pose = (void *)(begin + at->pose),
-        .twist = (void *)(begin + at->twist),
-        .wrench = (void *)(begin + at->wrench),
-        .composite = (void *)(begin + at->composite),
-        .spin = (void *)(begin + at->spin),
-        .axis = (void *)(begin + at->axis),
-        .arm = (void *)(begin + at->arm),
-        .spread = (void *)(begin + at->spread),
-        .pull = (void *)(begin + at->pull),
-        .place = (void *)(begin + at->place),
-        .sines = (void *)(begin + at->sines),
-        .is_placed = (void *)(begin + at->is_placed),
-        .is_moving = (void *)(begin + at->is_moving),
-        .is_least = (void *)(begin + at->is_least),
-        .least = (void *)(begin + at->least),
-        .row = (void *)(begin + at->row),
-        .x = (void *)(begin + at->x),
-        .xdot = (void *)(begin + at->xdot),
-        .out = (void *)(begin + at->out),
-    };
+    char *all[ZD_PLANE_ARRAYS];
+    zd_plane_frame frame = {.inputs = NULL};
+    for (int i = 0; i < ZD_PLANE_ARRAYS; i++) all[i] = (char *)scratch + mechanism->frame_at[i];
+    memcpy(&frame, all, sizeof all);
+    return frame;
 }
 
 static double value_of(const void *mechanism, const void *frame, int quantity)

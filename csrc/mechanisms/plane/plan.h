@@ -14,11 +14,7 @@ typedef struct zd_plane_planned_joint {
     int row_count;
 } zd_plane_planned_joint;
 
-/* Offsets of the parts of a frame in the scratch, in bytes */
-typedef struct zd_plane_frame_at {
-    size_t pose, twist, wrench, composite, spin, axis, arm, spread, pull, place, sines, is_placed, is_moving, row, x, xdot, out;
-    size_t is_least, least;
-} zd_plane_frame_at;
+enum { ZD_PLANE_ARRAYS = 19, ZD_PLANE_OF_MEASURES = 14 };   /* number of arrays of a frame, and the first that measures alone use */
 
 struct zd_packing;
 
@@ -37,7 +33,7 @@ struct zd_plane {
     zd_hinged hinged;             /* used if all bodies turn about revolute joints and nothing is packed */
     const struct zd_packing *packing;   /* in absolute coordinates, where its matrices are stored packed; else NULL */
     int revolutes, lines;           /* in absolute coordinates, their numbers: see structure/packing.h */
-    zd_plane_frame_at frame_at;
+    size_t frame_at[ZD_PLANE_ARRAYS + 1];       /* bytes before each array of a frame, and their sum */
     zd_system system;               /* its data is the mechanism */
     zd_measures measures;
 };
@@ -48,28 +44,29 @@ typedef struct zd_plane_pull {
     double near, far;               /* torque on the first, and on the second */
 } zd_plane_pull;
 
-/* Quantities kept in a system's scratch while (t, p) is unchanged, followed by those computed anew at each call. */
+/* Arrays in a system's scratch: those of one (bodies + 1,) have an entry for each body. */
 typedef struct zd_plane_frame {
+    zd_vector *arm;                 /* (2 revolutes,) of each revolute joint; this array and the next are first: see products.c */
+    double *spread;                 /* (3 bodies + 3,) where matrices are packed: a vector over the coordinates */
+    zd_plane_pull *pull;            /* (lines,): see lines.c */
+    double *place;                  /* (3 bodies + 3,) where there are lines: the coordinates */
+    zd_vector *axis;                /* (bodies + 1,) where matrices are packed: x axis of each body */
     zd_plane_pose *pose;
     zd_plane_twist *twist;
     zd_plane_wrench *wrench;
-    zd_plane_composite *composite;
-    zd_spin *spin;                  /* used by measures only */
-    zd_vector *axis, *arm;          /* (bodies + 1,), (2 revolutes,): x axis of each body, arms of each revolute joint */
-    double *spread;                 /* (3 bodies + 3,): a vector over the coordinates */
-    zd_plane_pull *pull;                  /* (lines,): see lines.c */
-    double *place;                  /* (3 bodies + 3,) where there are lines: the coordinates */
+    zd_plane_composite *composite;  /* (bodies + 1,) unless matrices are packed */
     double *sines;                  /* 3 for each body, see zd_plane_tree_turn() */
     double *is_placed;              /* 1 if the poses belong to the current (t, p), otherwise 0 */
-    double *is_moving;              /* used by measures only: 1 if the twists belong to the current v, otherwise 0 */
-    double *is_least, *least;       /* used by measures only: 1 if (m,) multipliers of the least reactions belong to the current state */
-    double *row;                    /* (nv,) of measures alone */
-    const double *inputs;           /* values of user functions of forces, if some of these read reactions; else NULL */
     double *x, *xdot, *out;         /* inputs of user functions, (longest,) each, and their output, (longest + 3,) */
+    double *is_moving;              /* for measures, as those that follow: 1 if the twists belong to the current v, otherwise 0 */
+    zd_spin *spin;
+    double *is_least, *least;       /* 1 if (m,) multipliers of the least reactions belong to the current state */
+    double *row;                    /* (nv,) */
+    const double *inputs;           /* values of user functions of forces, if some of these read reactions; else NULL */
 } zd_plane_frame;
 
 zd_plane_frame zd_plane_frame_of(const zd_plane *mechanism, double *scratch);
-int zd_plane_frame_divide(const zd_plane *mechanism, zd_plane_frame_at *to);    /* returns the number of doubles */
+void zd_plane_frame_divide(zd_plane *mechanism);     /* sets frame_at */
 /* Marker quantities of a placed frame; their rates need a moving one. */
 zd_readings zd_plane_frame_readings(const zd_plane *mechanism, const zd_plane_frame *frame);
 

@@ -240,10 +240,11 @@ static int terms_of(const zd_plane_tables *tables, const zd_plane *self, int is_
 
 static void make_system(const zd_plane_tables *tables, const parts *from, int coordinates, zd_plane *self)
 {
+    zd_plane_frame_divide(self);
     self->system = (zd_system){
         .nq = coordinates, .nv = coordinates, .mh = self->elements.mh, .mn = self->elements.m - self->elements.mh,
         .provides = terms_of(tables, self, has_tree(tables)),
-        .scratch = zd_plane_frame_divide(self, &self->frame_at),
+        .scratch = (int)(self->frame_at[ZD_PLANE_OF_MEASURES] / sizeof(double)),
         .evaluate = zd_plane_evaluate,
         .data = self,
         .lengths = from->lengths,
@@ -253,10 +254,11 @@ static void make_system(const zd_plane_tables *tables, const parts *from, int co
         .structure = self->packing ? &self->packing->packed.structure : NULL,
         .operations = self->packing && self->packing->revolutes.are_all ? &zd_plane_products : NULL,
         .magnitudes = has_tree(tables) ? zd_plane_magnitudes : NULL,
-        .magnitudes_scratch = zd_plane_frame_divide(self, &self->frame_at),
         .force_magnitudes = zd_plane_force_magnitudes,
     };
+    self->system.magnitudes_scratch = self->system.scratch;
     self->measures = zd_plane_measures(self, from->elements.measure);
+    self->measures.scratch = (int)(self->frame_at[ZD_PLANE_ARRAYS] / sizeof(double));
     self->elements.reading.evaluate = zd_plane_read;
     if (self->elements.reading.count) self->system.reading = &self->elements.reading;
 }
