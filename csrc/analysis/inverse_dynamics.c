@@ -57,6 +57,7 @@ static int is_violated(const inverse *self, const double *vdot)
 {
     const zd_point *point = self->point;
     const zd_terms *terms = &point->terms;
+    if (!self->m) return 0;
     const double *scale = self->given->inverse_scale, length = self->given->length;
     const double speed = length * (1 + zd_largest_scaled(self->n, point->v, scale));
     const double size = length * (1 + zd_largest_scaled(self->n, vdot, scale)) + speed * speed / length;
@@ -141,7 +142,7 @@ static void find_efforts(inverse *self, const double *rows, double *u)
         for (int j = 0; j < count; j++) acting[j] = share * given->weight[j] * self->projected[j * k + i];
         along[i] *= share;
     }
-    zd_row_space_factor(&self->acting, k, 0, DEPENDENT * largest * sqrt(self->mobility));
+    zd_row_space_prepare(&self->acting, k, 0, DEPENDENT * largest * sqrt(self->mobility));
     zd_row_space_solve(&self->acting, along, u);
     for (int j = 0; j < count; j++) u[j] *= given->weight[j];
 }

@@ -104,7 +104,7 @@ static int set_changes(tracker *self)
 }
 
 /* True at a dead point, or next to it: positions are inaccurate there, and rates may be those of another branch. */
-static int is_singular(const tracker *self) { return self->is_determined && !(self->rows.pivot > SINGULAR); }
+static int is_singular(const tracker *self) { return self->is_determined && !(self->rows.space.pivot > SINGULAR); }
 
 /* linear <- position of the linear predictor, *step <- its size; next <- the same with the deviation extrapolated from those of earlier
  * parts, unless that is large. `h`: length of the part */
@@ -208,7 +208,7 @@ static int note_dead_point(tracker *self, int64_t i, zd_tracked *found)
         set_target(self, i, 1);
         status = set_changes(self);
         find_change(self);
-        if (self->rows.pivot > NEAR_SINGULAR)
+        if (self->rows.space.pivot > NEAR_SINGULAR)
             note_contradiction(&self->rows, self->rows.positions, OF_CHANGES, 0, i, found);
     }
     copy(self, self->sample, self->reached);
@@ -257,7 +257,7 @@ int zd_kinematics(const zd_prescribed_motion *motion, const double *p, zd_tracke
     set_target(self, 0, 1);
     zd_copy_all(self->nq, p, self->next);
     int status = factor(self, self->next);
-    self->is_determined = self->rows.pivot > SINGULAR;
+    self->is_determined = self->rows.space.pivot > SINGULAR;
     zd_copy_all(self->quantities, self->rows.value, self->next + self->nq);
     copy(self, self->next, self->sample);
     copy(self, self->next, self->reached);

@@ -8,7 +8,6 @@
 
 static const double DEPENDENT = 1e-9;   /* remaining norm relative to the largest at which a row is redundant; rounding leaves 1e-13 */
 static const double SHORT_ROW = 1e-3;   /* norm of a row relative to the longest: smaller ones are divided by that */
-static const double REGULAR = 1e-3;     /* relative pivot above which rows are far from redundant */
 
 zd_prescribed_rows zd_prescribed_rows_create(zd_arena *arena, const zd_prescribed_motion *motion)
 {
@@ -87,19 +86,9 @@ static void normalize(zd_prescribed_rows *self)
 static void factor(zd_prescribed_rows *self)
 {
     zd_row_space *space = &self->space;
-    const int n = space->n;
-    const size_t bytes = (size_t)(self->positions * n) * sizeof *self->unit;
-    double *A = memcpy(space->A, self->unit, bytes), largest = 0;   /* reciprocal of a pivot */
-    self->is_square = self->positions == n && zd_lu_factor(n, A, space->order) == n;
-    for (int k = 0; k < n && self->is_square; k++) largest = fmax(largest, fabs(A[k * n + k]));
-    space->rank = n;
-    self->pivot = self->is_square ? 1 / largest : 0;
-    self->is_square = self->pivot > REGULAR;
-    if (self->is_square) return;
-    memcpy(A, self->unit, bytes);
-    zd_row_space_factor(space, self->positions, DEPENDENT, 0);
+    memcpy(space->A, self->unit, (size_t)(self->positions * space->n) * sizeof *self->unit);
+    zd_row_space_prepare(space, self->positions, DEPENDENT, 0);
     space->rows = space->rank;      /* the redundant ones are not solved */
-    self->pivot = space->rank < n ? 0 : fabs(space->diagonal[n - 1] / space->diagonal[0]);
 }
 
 int zd_prescribed_rows_factor(zd_prescribed_rows *self, double t, const double *p)
@@ -126,8 +115,7 @@ void zd_prescribed_rows_solve(zd_prescribed_rows *self, double *x)
 {
     const int n = self->space.n;
     for (int k = 0; k < self->rows; k++) self->right[k] *= self->inverse_length[k];
-    if (self->is_square) zd_lu_solve(n, self->space.A, self->space.order, memcpy(self->y, self->right, (size_t)n * sizeof *self->y));
-    else zd_row_space_solve(&self->space, self->right, self->y);
+    zd_row_space_solve(&self->space, self->right, self->y);
     for (int i = 0; i < n; i++) x[i] = self->motion->scale_v[i] * self->y[i];
 }
 

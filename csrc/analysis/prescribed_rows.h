@@ -16,9 +16,7 @@ typedef struct zd_prescribed_rows {
     double *unit;           /* (rows, nv): rows in scaled velocities, times `inverse_length` */
     double *inverse_length; /* (rows,): 1 / their norms, but at most those of a share of the largest */
     double *value, *bias;   /* (quantities,): values, and second derivatives minus row vdot, of prescribed quantities */
-    zd_row_space space;     /* factors of the first `positions` rows; if is_square, its A and order are those of zd_lu_factor() */
-    int is_square;          /* true if they are as many as velocities, and far from singular */
-    double pivot;           /* the smallest pivot relative to the largest; 0 where they do not determine the positions */
+    zd_row_space space;     /* factors of the first `positions` rows; its pivot is 0 where they do not determine the positions */
     double *right, *y;      /* (rows,), (nv,): right-hand side, and its solution in scaled velocities */
     double *components, *jacobian;      /* (components,), (components, nv): values or biases of measures, and derivatives */
     double *scratch;        /* work array of measures */

@@ -73,8 +73,13 @@ const int zd_sets_of_programs = ZD_COUNT_OF_SETS;
 
 void zd_program_run(const zd_instruction *next, double *value, double *to) { run_0_1(next, value, to); }
 
-void zd_expressions_evaluate(const zd_expressions *self, const double *numbers, int64_t states, const double *t, const double *x,
-                             const double *xdot, double *out)
+void zd_expressions_evaluate(const zd_expressions *self, const double *numbers, double t, const double *x, const double *xdot, double *out)
+{
+    express_0_1(self, numbers, &t, x, xdot, out);
+}
+
+void zd_expressions_evaluate_all(const zd_expressions *self, const double *numbers, int64_t states, const double *t, const double *x,
+                                 const double *xdot, double *out)
 {
     int64_t i = 0;
 #if (ZD_SETS) & ZD_SET_BASELINE_2

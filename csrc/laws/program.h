@@ -57,9 +57,11 @@ enum { ZD_FRAME = 8192 };
 #define ZD_VALUES(type, name, frame) type name[ZD_FRAME]
 #endif
 
-/* out (states, results) <- values of expressions of numbers (numbers,) at t (states,), x (states, terms) and xdot (states, rates). */
-void zd_expressions_evaluate(const zd_expressions *self, const double *numbers, int64_t states, const double *t, const double *x,
-                             const double *xdot, double *out);
+/* out (results,) <- values of expressions of numbers (numbers,) at t, x (terms,) and xdot (rates,). */
+void zd_expressions_evaluate(const zd_expressions *self, const double *numbers, double t, const double *x, const double *xdot, double *out);
+/* The same at so many states: t (states,), x (states, terms), and so on. */
+void zd_expressions_evaluate_all(const zd_expressions *self, const double *numbers, int64_t states, const double *t, const double *x,
+                                 const double *xdot, double *out);
 /* Runs instructions without units; values go to `to` and the places after it, within the frame `value`. */
 void zd_program_run(const zd_instruction *next, double *value, double *to);
 /* The value of an operation on values, one that blocks have, too. */

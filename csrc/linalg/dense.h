@@ -74,13 +74,17 @@ typedef struct zd_row_space {
     double *factor;         /* (n,) 2 / v^T v of each reflection */
     double *norm;           /* (most,): norms of the rows without their components along earlier ones */
     int *order;             /* (most,) P */
-    double *T, *y, *c;      /* (n, most), (n,), (most,) temporary */
+    double *T, *y, *c;      /* (n, most), (n,), (most,) temporary; T has the factors of zd_lu_factor() if is_square */
+    int is_square;          /* true if factored by zd_row_space_prepare(), with as many rows as columns, far from singular */
+    double pivot;           /* set by that: the smallest pivot relative to the largest; 0 if the rank is below n */
 } zd_row_space;
 
 zd_row_space zd_row_space_create(zd_arena *arena, int most, int n);
 /* Factors the first `rows` rows of A, n columns each. Rows are redundant if their remaining norm is at most `share` of the longest row, or
  * `least`. */
 void zd_row_space_factor(zd_row_space *self, int rows, double share, double least);
+/* The same for solutions alone. */
+void zd_row_space_prepare(zd_row_space *self, int rows, double share, double least);
 /* x (n,) <- solution of A x = right with the smallest norm, or least squares where rows contradict each other */
 void zd_row_space_solve(zd_row_space *self, const double *right, double *x);
 void zd_row_space_turn(const zd_row_space *self, double *x);        /* x <- Q^T x: those from `rank` on are along the null space */

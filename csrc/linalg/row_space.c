@@ -1,9 +1,11 @@
 #include "dense.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "small.h"
 
+static const double REGULAR = 1e-3;     /* relative pivot above which rows are far from redundant */
 enum { TOGETHER = 4 };
 
 zd_row_space zd_row_space_create(zd_arena *arena, int most, int n)
@@ -64,7 +66,7 @@ void zd_row_space_factor(zd_row_space *self, int rows, double share, double leas
 {
     const int n = self->n;
     self->rows = rows;
-    self->rank = 0;
+    self->rank = self->is_square = 0;
     for (int i = 0; i < rows; i++) {
         self->order[i] = i;
         self->norm[i] = norm_of(n, self->A + i * n);
@@ -80,6 +82,26 @@ void zd_row_space_factor(zd_row_space *self, int rows, double share, double leas
         for (int i = k + 1; i < rows; i++) self->norm[i] = norm_of(n - k - 1, self->A + i * n + k + 1);
         self->rank = k + 1;
     }
+}
+
+void zd_row_space_prepare(zd_row_space *self, int rows, double share, double least)
+{
+    const int n = self->n;
+    double first = INFINITY, last = 0;      /* smallest and largest reciprocal of a pivot */
+    if (rows == n && zd_lu_factor(n, memcpy(self->T, self->A, (size_t)(n * n) * sizeof *self->T), self->order) == n)
+        for (int k = 0; k < n; k++) {
+            const double size = fabs(self->T[k * n + k]);
+            if (size < first) first = size;
+            if (size > last) last = size;
+        }
+    self->pivot = last > 0 ? first / last : 0;
+    if (self->pivot > REGULAR && last * least < 1) {
+        self->rows = self->rank = n;
+        self->is_square = 1;
+        return;
+    }
+    zd_row_space_factor(self, rows, share, least);
+    self->pivot = self->rank < n ? 0 : fabs(self->diagonal[n - 1] / self->diagonal[0]);
 }
 
 void zd_row_space_turn(const zd_row_space *self, double *x)
@@ -121,6 +143,10 @@ static void solve_trapezoid(zd_row_space *self, double *c, double *y)
 
 void zd_row_space_solve(zd_row_space *self, const double *right, double *x)
 {
+    if (self->is_square) {
+        zd_lu_solve(self->n, self->T, self->order, memcpy(x, right, (size_t)self->n * sizeof *x));
+        return;
+    }
     for (int i = 0; i < self->rows; i++) self->c[i] = right[self->order[i]];
     if (self->rank == self->rows) solve_triangle(self, self->c, self->y);
     else solve_trapezoid(self, self->c, self->y);

@@ -92,7 +92,7 @@ int zd_read_event(const zd_reader *self, const void *data, int event, double t, 
         if (read(self, of, known->reading + k, t, p, v, &out, self->x + k)) return ZD_CALLBACK;
     if (known->is_called) return self->events->evaluate(self->events->data, event, t, p, v, self->x, value);
     *value = self->x[0];
-    if (known->function) zd_expressions_evaluate(known->function, self->x, 1, self->x, self->x, self->x, value);
+    if (known->function) zd_expressions_evaluate(known->function, self->x, 0, NULL, NULL, value);
     *value -= known->value;
     return isfinite(*value) ? ZD_DONE : ZD_CALLBACK;
 }

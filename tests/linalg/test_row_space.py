@@ -14,14 +14,17 @@ AGREES = 1e-11      # of the largest: rounding times the condition of the rows, 
 
 @pytest.fixture(scope="module")
 def library(tmp_path_factory):
-    return library_of(tmp_path_factory.mktemp("row_space"), "row_space", "linalg/row_space", "workspace")
+    return library_of(tmp_path_factory.mktemp("row_space"), "row_space", "linalg/row_space", "linalg/lu", "workspace")
 
 
 def solved(library, A, right, vector):
     """Rank, solution, and the vector turned into rows and null space."""
     (rows, n), x, turned = A.shape, np.full(A.shape[1], np.nan), vector.copy()
-    pointers = (ctypes.c_void_p(np.ascontiguousarray(each).ctypes.data) for each in (A, right, x, turned))
-    return library.solve(rows, n, *pointers), x, turned
+    pointers = [ctypes.c_void_p(np.ascontiguousarray(each).ctypes.data) for each in (A, right, x, turned)]
+    rank, alone = library.solve(rows, n, *pointers), x.copy()
+    assert library.solve(rows, n, *pointers[:3], None) == rank     # by elimination if they are square and regular
+    assert np.abs(x - alone).max() <= AGREES * max(1.0, np.abs(x).max())
+    return rank, x, turned
 
 
 @pytest.mark.parametrize(("rows", "n", "rank"), [

@@ -14,7 +14,7 @@ static int all_finite(const double *values, int count)
 static int has_said(const zd_law_program *program, const zd_readings *at, double t, int count)
 {
     if (!program->expressions) return 0;
-    zd_expressions_evaluate(program->expressions, program->numbers, 1, &t, at->x, at->xdot, at->out);
+    zd_expressions_evaluate(program->expressions, program->numbers, t, at->x, at->xdot, at->out);
     return all_finite(at->out, count);
 }
 

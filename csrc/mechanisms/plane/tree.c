@@ -151,7 +151,8 @@ static zd_plane_wrench pass_inward(const zd_plane_link *link, const zd_plane_pos
 
 void zd_plane_tree_inward(const zd_plane_tree *tree, const zd_plane_pose *pose, int body, double scale, zd_plane_wrench what, double *row)
 {
-    for (int i = body; i; i = tree->link[i].inner) what = pass_inward(tree->link + i, pose + i, what, scale, row);
+    for (int i = body; i && (what.torque != 0 || what.force.x != 0 || what.force.y != 0); i = tree->link[i].inner)
+        what = pass_inward(tree->link + i, pose + i, what, scale, row);
 }
 
 void zd_plane_tree_gather(const zd_plane_tree *tree, const zd_plane_pose *pose, zd_plane_wrench *wrench, double *to)

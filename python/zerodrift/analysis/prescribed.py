@@ -63,13 +63,13 @@ def _of_function(name: str, given: Any, t: np.ndarray) -> Prescribed:
     try:
         with np.errstate(all="ignore"):
             parts = _parts(name, function, t)
-        is_elementwise = np.isfinite(parts).all() and np.allclose(parts[..., some], expected, 1e-9, 1e-12)
+            is_elementwise = (np.abs(parts[..., some] - expected) <= 1e-12 + 1e-9 * np.abs(expected)).all()
     except Exception:
         is_elementwise = False      # it takes single times only
-    if not is_elementwise:
+    if not is_elementwise or not np.isfinite(parts).all():
         parts = np.dstack([_parts(name, function, each) for each in t.tolist()])
-    if not np.isfinite(parts).all():
-        raise WrongValue(f"{name} must be finite with its derivatives at all samples", "not-finite")
+        if not np.isfinite(parts).all():
+            raise WrongValue(f"{name} must be finite with its derivatives at all samples", "not-finite")
     value, rate, second = np.ascontiguousarray(parts.swapaxes(1, 2))
     return Prescribed(value, rate, second, 0.0)
 

@@ -59,7 +59,7 @@ def reader(program: tuple[Any, Any], numbers: Sequence[float], *states: np.ndarr
 
     def read(keep: Any = program) -> np.ndarray:
         out = np.empty((count, made.results))
-        lib.zd_expressions_evaluate(made, memory[0], count, *memory[1:], doubles(out, out.size))
+        lib.zd_expressions_evaluate_all(made, memory[0], count, *memory[1:], doubles(out, out.size))
         return out
 
     return read
