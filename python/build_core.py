@@ -41,7 +41,7 @@ def declarations() -> str:
                      "plane/assembly/varied.h", "space/elements.h", "space/tables.h", "space_tree/tree.h")
     of_systems = ("terms.h", "structure.h", "closed_form.h", "derivatives.h", "system.h")
     of_core = ("tables.h", "settings.h", "run.h", "many_runs.h", "states.h")
-    of_laws = ("program.h", "elimination.h")
+    of_laws = ("program.h", "elimination.h", "terms.h")
     names = (*(f"include/zerodrift/{name}" for name in of_systems), *(f"laws/{name}" for name in of_laws),
              *(f"mechanisms/{name}" for name in of_mechanisms), *(f"zerodrift/{name}" for name in of_core),
              "block/block.h", "python/interface.h")

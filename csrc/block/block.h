@@ -15,14 +15,17 @@
  *     bodies ...      the members of zd_plane_body, zd_plane_joint, zd_plane_quantity of mechanisms/plane/tables.h, or of zd_space_body,
  *                     zd_space_joint, zd_space_quantity of mechanisms/space/tables.h, in their order, arrays entry after entry
  *     terms ...       those of zd_quantity_term, zd_relation, zd_generalized_force and zd_output_spec of mechanisms/common/elements.h
- *     laws            user functions: first instruction, number of instructions, number of marker quantities x, number of results:
- *                     1 for a generalized force; for a relation with k terms the k + 3 that zd_law describes
- *     instructions    code, and three operands: enum zd_code of laws/program.h; instruction i writes value i
+ *     laws            user functions, zd_expressions of laws/program.h: first instruction and number of instructions, number of marker
+ *                     quantities x, first result and number of results, first number and number of numbers. There are 1 result for a
+ *                     generalized force; for a relation with k terms the k + 3 that zd_law describes
+ *     instructions    code, and three operands: enum zd_code of laws/program.h
+ *     results         place in the frame of a law
+ *     numbers         number of a law; that of a spline, which an instruction reads as its first operand, is its index
  *     splines         first knot, number of knots: at least 2, abscissas increasing
  *     knots           abscissa, and coefficients of powers 3, 2, 1, 0 of the distance from it, valid to the next knot
  *     start           p, then v: one entry each; none if the start is not given
  *     outputs         index of a measure that a run records
- *     inputs          name, unit, enum zd_block_input_kind, index of a force or 0, and initial value
+ *     inputs          name, unit, enum zd_block_input_kind, index of a force or law, and initial value
  *     settings        t0, step, rtol, atol, first step, maximum step, maximum move, maximum number of steps, 1 to continue at
  *                     bifurcations: one entry or none; as in zd_settings
  *     methods         table (enum zd_table), name, and ZD_ROW_VALUES values of its parameters: of the formulation, the integrator and
@@ -45,12 +48,12 @@
 #include "../laws/program.h"
 #include "../zerodrift.h"
 
-enum { ZD_BLOCK_VERSION = 2 };
+enum { ZD_BLOCK_VERSION = 3 };
 
 enum zd_block_section {
     ZD_BLOCK_GRAVITY, ZD_BLOCK_BODIES, ZD_BLOCK_JOINTS, ZD_BLOCK_QUANTITIES,
     ZD_BLOCK_TERMS, ZD_BLOCK_RELATIONS, ZD_BLOCK_FORCES, ZD_BLOCK_MEASURES,
-    ZD_BLOCK_LAWS, ZD_BLOCK_INSTRUCTIONS, ZD_BLOCK_SPLINES, ZD_BLOCK_KNOTS,
+    ZD_BLOCK_LAWS, ZD_BLOCK_INSTRUCTIONS, ZD_BLOCK_RESULTS, ZD_BLOCK_NUMBERS, ZD_BLOCK_SPLINES, ZD_BLOCK_KNOTS,
     ZD_BLOCK_START, ZD_BLOCK_OUTPUTS, ZD_BLOCK_INPUTS, ZD_BLOCK_SETTINGS, ZD_BLOCK_METHODS, ZD_BLOCK_NAMES,
     ZD_BLOCK_PARAMETERS, ZD_BLOCK_EFFECTS, ZD_BLOCK_PRODUCTS, ZD_BLOCK_TEXTS,
     ZD_BLOCK_SECTIONS
@@ -59,7 +62,7 @@ enum zd_block_section {
 /* Numbers that are set between steps. */
 enum zd_block_input_kind {
     ZD_INPUT_FORCE,         /* value of a force of kind ZD_FORCE_CONSTANT */
-    ZD_INPUT_SPEED          /* a speed, linear in time within a step, that laws read by ZD_CODE_INPUT */
+    ZD_INPUT_SPEED          /* a speed, linear in time within a step: the first three numbers of a law, see zd_input_slot */
 };
 
 typedef struct zd_block zd_block;

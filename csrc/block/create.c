@@ -31,26 +31,26 @@ static arrays create_tables(const zd_block_layout *layout, zd_arena *arena)
 
 /* ---- checks of what the mechanism does not check ---- */
 
-static int laws_suit(const zd_block_layout *layout, const zd_elements *elements, zd_complaint to)
+static int laws_suit(const zd_block *self, const zd_elements *elements, zd_complaint to)
 {
     for (int i = 0; i < elements->relations; i++) {
         const zd_relation *row = elements->relation + i;
-        if (row->law >= 0 && !zd_block_law_suits(layout, row->law, row->terms, row->terms + 3))
+        if (row->law >= 0 && !zd_block_law_suits(&self->laws, &self->layout, row->law, row->terms, row->terms + 3))
             return zd_complain(to, "relation %d: its law must exist, with its marker quantities and results", i);
     }
     for (int i = 0; i < elements->forces; i++) {
         const zd_generalized_force *force = elements->force + i;
-        if (force->law >= 0 && !zd_block_law_suits(layout, force->law, force->terms, 1))
+        if (force->law >= 0 && !zd_block_law_suits(&self->laws, &self->layout, force->law, force->terms, 1))
             return zd_complain(to, "force %d: its law must exist, with its marker quantities and one result", i);
     }
     return 1;
 }
 
-static int laws_know_time(const zd_block_layout *layout)
+/* A zd_law, which is called only where the values of a program are not finite. */
+static int fail(void *owner, int law, double t, const double *x, const double *xdot, double *out)
 {
-    for (int i = 0; i < zd_block_count(layout, ZD_BLOCK_INSTRUCTIONS); i++)
-        if (zd_block_is(*zd_block_entry(layout, ZD_BLOCK_INSTRUCTIONS, i), ZD_CODE_TIME)) return 1;
-    return 0;
+    (void)owner, (void)law, (void)t, (void)x, (void)xdot, (void)out;
+    return ZD_CALLBACK;
 }
 
 static int fits(const zd_block *self, zd_complaint to)
@@ -77,7 +77,7 @@ static zd_elements elements_of(zd_block *self, const arrays *from)
         .forces = zd_block_count(layout, ZD_BLOCK_FORCES), .measures = zd_block_count(layout, ZD_BLOCK_MEASURES),
         .term = from->section[ZD_BLOCK_TERMS], .relation = from->section[ZD_BLOCK_RELATIONS],
         .force = from->section[ZD_BLOCK_FORCES], .measure = from->section[ZD_BLOCK_MEASURES],
-        .law = laws ? zd_block_law : NULL, .owner = &self->laws, .laws_know_time = laws_know_time(layout),
+        .law = laws ? fail : NULL, .program = self->laws.program, .laws_know_time = self->laws.know_time,
         .length = layout->part[ZD_BLOCK_GRAVITY].word[layout->of->dimension]};
 }
 
@@ -86,7 +86,7 @@ static int make(zd_block *self, const arrays *from, zd_complaint to)
     const zd_elements elements = elements_of(self, from);
     for (int section = ZD_BLOCK_BODIES; section <= ZD_BLOCK_MEASURES; section++)
         if (!zd_block_unpack(&self->layout, section, from->section[section], to)) return 0;
-    if (!laws_suit(&self->layout, &elements, to) || !zd_block_names_check(&self->layout, to)) return 0;
+    if (!laws_suit(self, &elements, to) || !zd_block_names_check(&self->layout, to)) return 0;
     if (!self->layout.of->make(self, from->section, &elements, to)) return 0;
     self->system.name_constraint = zd_block_name_row;
     self->system.names = &self->names;
@@ -100,17 +100,16 @@ static int make(zd_block *self, const arrays *from, zd_complaint to)
 
 /* ---- memory ---- */
 
-static zd_block *create(zd_arena *arena, size_t size, const zd_block_layout *layout, int longest)
+static zd_block *create(zd_arena *arena, size_t size, const zd_block_layout *layout)
 {
     zd_block nowhere = {.size = 0}, *here = zd_arena_bytes(arena, sizeof *here), *self = here ? here : &nowhere;
     self->word = zd_arena_bytes(arena, size);
-    self->laws.value = zd_arena_doubles(arena, (size_t)longest);
+    zd_block_laws_create(&self->laws, layout, arena);
     const size_t inputs = (size_t)zd_block_count(layout, ZD_BLOCK_INPUTS);
     zd_block_inputs_memory *memory = &self->inputs_memory;
     memory->value = zd_arena_doubles(arena, inputs);
     memory->lower = zd_arena_doubles(arena, inputs);
     memory->upper = zd_arena_doubles(arena, inputs);
-    self->laws.speed = memory->speed = zd_arena_doubles(arena, 3 * inputs);
     memory->place = zd_arena_bytes(arena, inputs * sizeof *memory->place);
     self->output = zd_arena_bytes(arena, (size_t)zd_block_count(layout, ZD_BLOCK_OUTPUTS) * sizeof *self->output);
     return here;
@@ -120,21 +119,21 @@ static zd_block *copy_of(const double *word, size_t size, zd_complaint to)
 {
     zd_block_layout layout;
     if (!zd_block_split(word, size / sizeof *word, dimensions, &layout, to)) return NULL;
-    const int longest = zd_block_laws_check(&layout, to);
-    if (longest < 0) return NULL;
     zd_arena counting = {0};
-    create(&counting, size, &layout, longest);
+    create(&counting, size, &layout);
     zd_arena arena = {.base = zd_allocate(counting.used)};
     if (!arena.base) {
         zd_complain(to, "there is no memory for the mechanism");
         return NULL;
     }
-    zd_block *self = create(&arena, size, &layout, longest);
+    zd_block *self = create(&arena, size, &layout);
     memcpy(self->word, word, size);
     self->size = size;
     zd_block_split(self->word, size / sizeof *word, dimensions, &self->layout, to);
-    self->laws.layout = self->names.layout = &self->layout;
-    return self;
+    self->names.layout = &self->layout;
+    if (zd_block_laws_unpack(&self->laws, &self->layout, to)) return self;
+    zd_release(self);
+    return NULL;
 }
 
 zd_block *zd_block_create(const void *data, size_t size, char *message, int message_size)

@@ -9,7 +9,8 @@ static const double *input_of(const zd_block *block, int input) { return zd_bloc
 
 static int is_settable(const zd_block *block, const double *input)
 {
-    if (zd_block_is(input[2], ZD_INPUT_SPEED)) return input[3] == 0;
+    if (zd_block_is(input[2], ZD_INPUT_SPEED))
+        return zd_block_is_integer(input[3], 0, zd_block_count(&block->layout, ZD_BLOCK_LAWS)) && block->laws.law[(int)input[3]].numbers >= 3;
     return zd_block_is(input[2], ZD_INPUT_FORCE) && zd_block_is_integer(input[3], 0, zd_block_count(&block->layout, ZD_BLOCK_FORCES)) &&
            block->force[(int)input[3]].kind == ZD_FORCE_CONSTANT;
 }
@@ -22,7 +23,7 @@ int zd_block_inputs_check(const zd_block *block, zd_complaint to)
         if (!zd_block_text(layout, input[0]) || !zd_block_text(layout, input[1]))
             return zd_complain(to, "input %d: the texts of its name and unit must exist", i);
         if (!is_settable(block, input))
-            return zd_complain(to, "input %d: it must be a speed, or set an existing force without a user function", i);
+            return zd_complain(to, "input %d: it must be a speed of a law, or set an existing force without a user function", i);
     }
     return 1;
 }
@@ -33,11 +34,12 @@ void zd_block_inputs_begin(zd_block *block)
     const int count = zd_block_inputs(block);
     for (int i = 0; i < count; i++) {
         const double *input = input_of(block, i);
-        double *place = zd_block_is(input[2], ZD_INPUT_SPEED) ? memory->speed + 3 * i : &block->force[(int)input[3]].value;
+        const int is_speed = zd_block_is(input[2], ZD_INPUT_SPEED), index = (int)input[3];
+        double *place = is_speed ? (double *)(uintptr_t)block->laws.program[index].numbers : &block->force[index].value;
         memory->value[i] = *place = input[4];
         memory->lower[i] = -INFINITY;
         memory->upper[i] = INFINITY;
-        memory->place[i] = (zd_input_slot){i, zd_block_is(input[2], ZD_INPUT_SPEED), place};
+        memory->place[i] = (zd_input_slot){i, is_speed, place};
     }
     block->inputs = (zd_inputs){.count = count, .value = memory->value, .lower = memory->lower, .upper = memory->upper, .places = count,
                                 .place = memory->place};

@@ -8,7 +8,8 @@ static const double LARGEST = 0x1p24;       /* whole number: sums of two are far
 
 static const char *const name_of_section[ZD_BLOCK_SECTIONS] = {
     "gravity", "bodies", "joints", "marker quantities", "terms", "relations", "forces", "measures", "laws", "instructions",
-    "splines", "knots", "start", "outputs", "inputs", "settings", "methods", "names", "parameters", "effects", "products", "texts"};
+    "results", "numbers", "splines", "knots", "start", "outputs", "inputs", "settings", "methods", "names", "parameters", "effects",
+    "products", "texts"};
 
 int zd_block_is_integer(double word, double low, double end)
 {
@@ -23,7 +24,8 @@ const zd_block_structure *zd_block_structure_in(const zd_block_layout *layout, i
 static int width_of(const zd_block_layout *layout, int section)
 {
     static const int width[ZD_BLOCK_SECTIONS] = {
-        [ZD_BLOCK_GRAVITY] = 1, [ZD_BLOCK_LAWS] = 4, [ZD_BLOCK_INSTRUCTIONS] = 4, [ZD_BLOCK_SPLINES] = 2, [ZD_BLOCK_KNOTS] = 5,
+        [ZD_BLOCK_GRAVITY] = 1, [ZD_BLOCK_LAWS] = 7, [ZD_BLOCK_INSTRUCTIONS] = 4, [ZD_BLOCK_RESULTS] = 1, [ZD_BLOCK_NUMBERS] = 1,
+        [ZD_BLOCK_SPLINES] = 2, [ZD_BLOCK_KNOTS] = 5,
         [ZD_BLOCK_START] = 1, [ZD_BLOCK_OUTPUTS] = 1, [ZD_BLOCK_INPUTS] = 5, [ZD_BLOCK_SETTINGS] = 9,
         [ZD_BLOCK_METHODS] = 2 + ZD_ROW_VALUES, [ZD_BLOCK_NAMES] = 1, [ZD_BLOCK_PARAMETERS] = 5, [ZD_BLOCK_EFFECTS] = 3,
         [ZD_BLOCK_PRODUCTS] = 7, [ZD_BLOCK_TEXTS] = 1};

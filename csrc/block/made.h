@@ -1,22 +1,26 @@
 /* A block that has become a mechanism. */
 #pragma once
 
+#include "../workspace.h"
 #include "layout.h"
 
-/* User functions of a block: checks, and evaluation. */
+/* User functions of a block. */
 
 typedef struct zd_block_laws {
-    const zd_block_layout *layout;
-    const double *speed;        /* (inputs, 3) */
-    double *value;              /* values of instructions, as many as the longest law has */
+    zd_law_program *program;    /* (laws,), of these: */
+    zd_expressions *law;
+    zd_instruction *instruction;
+    uint16_t *result;
+    double *number;             /* splines are their addresses */
+    zd_spline *spline;
+    int know_time;              /* 1 if a law reads t */
 } zd_block_laws;
 
-/* Number of instructions of the longest law, or -1 with the reason if an entry is wrong. */
-int zd_block_laws_check(const zd_block_layout *layout, zd_complaint to);
+void zd_block_laws_create(zd_block_laws *self, const zd_block_layout *layout, zd_arena *arena);
+/* Takes the laws of a block; 0 with the reason if an entry is wrong. */
+int zd_block_laws_unpack(zd_block_laws *self, const zd_block_layout *layout, zd_complaint to);
 /* True if a law has these numbers of marker quantities and results. */
-int zd_block_law_suits(const zd_block_layout *layout, int law, int terms, int results);
-/* A zd_law; its owner is a zd_block_laws. */
-int zd_block_law(void *owner, int law, double t, const double *x, const double *xdot, double *out);
+int zd_block_law_suits(const zd_block_laws *self, const zd_block_layout *layout, int law, int terms, int results);
 
 /* Names of the rows of C of a mechanism, from the names of its joints and relations. */
 
@@ -31,9 +35,9 @@ int zd_block_names_check(const zd_block_layout *layout, zd_complaint to);
 /* zd_system.name_constraint; `names` is a zd_block_names. */
 void zd_block_name_row(const void *names, int row, char *to, int size);
 
-/* Memory of inputs, (inputs,) each; `speed` has three numbers for each. */
+/* Memory of inputs, (inputs,) each. */
 typedef struct zd_block_inputs_memory {
-    double *value, *lower, *upper, *speed;
+    double *value, *lower, *upper;
     zd_input_slot *place;
 } zd_block_inputs_memory;
 

@@ -34,11 +34,10 @@ ZD_ON_UNIT static zd_real ZD_NAMED(operate)(enum zd_code code, const zd_real *a,
 ZD_ON_UNIT ZD_THREADED static void ZD_NAMED(run)(const zd_instruction *next, zd_real *value, zd_real *to)
 {
     static const void *const label[ZD_PROGRAM_CODES] = {
-        &&other, &&other, &&other, &&other, &&other, &&plus, &&minus, &&times, &&over, &&negative, &&other, &&other, &&other, &&other,
-        &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&root, &&other, &&other, &&other, &&other,
+        &&plus, &&minus, &&times, &&over, &&negative, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other,
+        &&other, &&other, &&other, &&root, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other,
         &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other,
-        &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&times_plus, &&times_minus, &&minus_times,
-        &&sines, &&end};
+        &&other, &&other, &&other, &&times_plus, &&times_minus, &&minus_times, &&sines, &&end};
     ZD_NEXT;
 plus: ZD_VALUE(ZD_A + ZD_B);
 minus: ZD_VALUE(ZD_A - ZD_B);

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "../include/zerodrift/sines.h"
+#include "../include/zerodrift/spline.h"
 
 #if defined(__GLIBC__) && defined(__x86_64__) && defined(__PIC__) && !defined(__PIE__)
 /* In shared libraries: the functions as every glibc has them since 2012, of the same bits, so that wheels do not require a newer one. */
@@ -64,6 +65,7 @@ double zd_operation(enum zd_code code, double a, double b, double c)
     case ZD_CODE_OR: return a != 0 || b != 0;
     case ZD_CODE_NOT: return a == 0;
     case ZD_CODE_CHOOSE: return a != 0 ? b : c;
+    case ZD_CODE_SPLINE: return zd_spline_at(a, b, c);
     case ZD_CODE_TIMES_PLUS: return a * b + c;
     case ZD_CODE_TIMES_MINUS: return a * b - c;
     case ZD_CODE_MINUS_TIMES: return c - a * b;

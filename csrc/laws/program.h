@@ -7,26 +7,20 @@
 
 #include <stdint.h>
 
-/* Operands a, b, c are numbers of values, except where noted. */
+#include "../include/zerodrift/closed_form.h"
+
+/* Operands a, b, c are places in the frame, except where noted. */
 enum zd_code {
-    ZD_CODE_NUMBER,         /* a itself; this code and the next four, inputs and splines are for blocks only: block/block.h */
-    ZD_CODE_TIME,           /* t */
-    ZD_CODE_X,              /* x of marker quantity a */
-    ZD_CODE_XDOT,           /* its rate */
-    ZD_CODE_RESULT,         /* result number a <- value b */
     ZD_CODE_PLUS, ZD_CODE_MINUS, ZD_CODE_TIMES, ZD_CODE_OVER, ZD_CODE_NEGATIVE,
     ZD_CODE_LESS, ZD_CODE_LESS_EQUAL, ZD_CODE_GREATER, ZD_CODE_GREATER_EQUAL, ZD_CODE_EQUAL, ZD_CODE_UNEQUAL,     /* 1 if true, else 0 */
     ZD_CODE_AND, ZD_CODE_OR, ZD_CODE_NOT,
     ZD_CODE_CHOOSE,         /* b if a is not 0, otherwise c */
-    ZD_CODE_INPUT,          /* number b (0, 1 or 2) of the place of input a, see zd_input_slot */
-    ZD_CODE_SPLINE,         /* spline a (its number) at value b, derivative of order c (a number: 0, 1 or 2); fails beyond its ends */
+    ZD_CODE_SPLINE,         /* a zd_spline, whose address is a, at b: derivative of order c; not a number beyond its ends */
     ZD_CODE_POWER, ZD_CODE_ROOT, ZD_CODE_SIN, ZD_CODE_COS, ZD_CODE_TAN, ZD_CODE_ASIN, ZD_CODE_ACOS, ZD_CODE_ATAN, ZD_CODE_ATAN2,
     ZD_CODE_SINH, ZD_CODE_COSH, ZD_CODE_TANH, ZD_CODE_ASINH, ZD_CODE_ACOSH, ZD_CODE_ATANH, ZD_CODE_EXP, ZD_CODE_LOG, ZD_CODE_ABS,
     ZD_CODE_FLOOR, ZD_CODE_CEILING, ZD_CODE_ERF, ZD_CODE_ERFC, ZD_CODE_EXPM1, ZD_CODE_HYPOT, ZD_CODE_LOG1P, ZD_CODE_LOG2,
     ZD_CODE_LOG10, ZD_CODE_GAMMA, ZD_CODE_LOGGAMMA,
-    ZD_CODES,
-    /* Codes of programs only */
-    ZD_CODE_TIMES_PLUS = ZD_CODES,  /* a b + c, rounded twice */
+    ZD_CODE_TIMES_PLUS,     /* a b + c, rounded twice */
     ZD_CODE_TIMES_MINUS,    /* a b - c */
     ZD_CODE_MINUS_TIMES,    /* c - a b */
     ZD_CODE_SINES,          /* sines of this and the next instructions' a, b (a number) in all; then the cosines */
@@ -64,5 +58,5 @@ void zd_expressions_evaluate_all(const zd_expressions *self, const double *numbe
                                  const double *xdot, double *out);
 /* Runs instructions without units; values go to `to` and the places after it, within the frame `value`. */
 void zd_program_run(const zd_instruction *next, double *value, double *to);
-/* The value of an operation on values, one that blocks have, too. */
+/* The value of an operation on values. */
 double zd_operation(enum zd_code code, double a, double b, double c);

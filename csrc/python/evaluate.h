@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../laws/elimination.h"
+#include "../laws/terms.h"
 #include "interface.h"
 
 const char *const zd_fingerprint = ZD_FINGERPRINT;

@@ -2,8 +2,9 @@
 
 import {angleOf, bodyOf, drawnPlace, isJoint, lengthOf, localOf, ofKind, turned} from "./model.js";
 
-const SECTIONS = ["gravity", "bodies", "joints", "quantities", "terms", "relations", "forces", "measures", "laws", "instructions", "splines", "knots",
-                  "start", "outputs", "inputs", "settings", "methods", "names", "parameters", "effects", "products", "texts"];
+const SECTIONS = ["gravity", "bodies", "joints", "quantities", "terms", "relations", "forces", "measures", "laws", "instructions", "results", "numbers",
+                  "splines", "knots", "start", "outputs", "inputs", "settings", "methods", "names", "parameters", "effects", "products", "texts"];
+const VERSION = 3;
 // Numbers of kinds in the tables of the core.
 const JOINT = {revolute: 0, prismatic: 1, weld: 2, slot: 4};
 const QUANTITY = {angle: 2, along: 3, distance: 5};
@@ -130,7 +131,7 @@ function packed(sections, bytes) {
   const head = 4 + SECTIONS.length, words = head + numbers.length + padded.length / 8;
   const block = new Uint8Array(8 * words), view = new DataView(block.buffer);
   block.set(new TextEncoder().encode("zdblock"));
-  [2, words, 2, ...counts, ...numbers].forEach((number, i) => view.setFloat64(8 * (i + 1), number, true));
+  [VERSION, words, 2, ...counts, ...numbers].forEach((number, i) => view.setFloat64(8 * (i + 1), number, true));
   block.set(padded, 8 * (head + numbers.length));
   return block;
 }

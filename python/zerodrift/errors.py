@@ -167,7 +167,7 @@ class NoSpace(_Coded, OSError):
 
 
 class NeedsCompiler(_Coded, NotImplementedError):
-    """Missing C compiler, for a function of C without a counterpart in Python."""
+    """Missing C compiler, for a function of C that the core does not have."""
 
     code = "needs-compiler"
 
@@ -364,7 +364,7 @@ class CompilationFailed(ZerodriftError):
 
 
 class NoCompilerWarning(_Coded, UserWarning):
-    """There is no C compiler: a symbolic system is evaluated in Python, about a hundred times slower."""
+    """There is no C compiler: a system whose equations would be compiled is interpreted, some times slower."""
 
     code = "no-compiler"
 

@@ -13,7 +13,7 @@ import zerodrift as zd
 from every_model import IN_SPACE, MECHANISMS
 from support import refused
 from zerodrift._private import gateway
-from zerodrift._private.gateway.mechanisms.blocks import SECTIONS, BlockCore
+from zerodrift._private.gateway.mechanisms.blocks import SECTIONS, VERSION, BlockCore
 
 STEPS, STEP = 40, 1e-3
 t = sp.Symbol("t")
@@ -156,7 +156,7 @@ def pendulum_by_hand(mass, length, inertia, start):
     counts = {"gravity": 3, "bodies": 1, "joints": 1, "start": 2, "names": 2, "texts": 1}
     numbers = [number for name in SECTIONS for number in sections.get(name, ())]
     words = 4 + len(SECTIONS) + len(numbers) + 1
-    return (b"zdblock\0" + struct.pack(f"<{3 + len(SECTIONS)}d", 2, words, 2, *(counts.get(name, 0) for name in SECTIONS))
+    return (b"zdblock\0" + struct.pack(f"<{3 + len(SECTIONS)}d", VERSION, words, 2, *(counts.get(name, 0) for name in SECTIONS))
             + struct.pack(f"<{len(numbers)}d", *numbers) + b"bob" + bytes(5))
 
 

@@ -5,11 +5,13 @@ import functools
 import numpy as np
 import pytest
 
+import symbolic_counterparts
 import zerodrift as zd
 from mechanisms.known import four_bar
 from mechanisms.random_mechanisms import Maker
 from native_systems import needs_compiler
 from random_symbolic import random_system
+from support import assert_same_bits
 from vector_units import SETS, DirectSet, available, closed_form_sets, sets_by_programs
 
 sp = pytest.importorskip("sympy")
@@ -27,6 +29,8 @@ def with_everything():
                        parameters={a: 0.3, b: 0.2}, p0=[0.0, 0.0], v0=[0.0, 0.0])
 
 
+SYMBOLIC = {"four bar": symbolic_counterparts.four_bar, "arm": symbolic_counterparts.arm, "skate": symbolic_counterparts.skate,
+            "with everything": lambda: with_everything()}
 SYSTEMS = {**{f"random {seed}": functools.partial(random_system, seed) for seed in range(4)}, "with everything": with_everything,
            "mechanism": lambda: Maker(2).m.system(compiled=True), "mechanism in absolute coordinates":
            lambda: four_bar().system("absolute", compiled=True)}
@@ -73,6 +77,53 @@ def test_runs_have_the_bits_of_compiled_ones(name, settings, vector):
     assert one.stats["closed_form_steps"] == other.stats["closed_form_steps"] == one.stats["steps"]
     assert np.array_equal(one.p, other.p)
     assert np.array_equal(one.v, other.v)
+
+
+@pytest.fixture
+def interpreted(monkeypatch):
+    """Makes a symbolic system again, without a compiler."""
+    def make(function):
+        with monkeypatch.context() as context:
+            context.setenv("CC", "no-such-compiler")
+            with pytest.warns(zd.NoCompilerWarning):
+                return function()
+    return make
+
+
+@needs_compiler
+@pytest.mark.parametrize("name", [*(f"random {seed}" for seed in range(8)), *SYMBOLIC])
+def test_symbolic_systems_have_the_bits_of_compiled_ones(name, interpreted):
+    """Terms along matrices, with sines of the core, and closed forms."""
+    made = SYMBOLIC.get(name) or functools.partial(random_system, int(name.split()[-1]))
+    one, other = made(), interpreted(made)
+    assert (one.compiled, other.compiled) == (True, False)
+    start = zd.assemble(one, one.p0, one.v0)
+    for settings in ({"closed_form": False}, {"formulation": "mixed", "closed_form": False}, {}):
+        assert_same_bits(*(zd.simulate(system, 0.1, *start, step=0.01, **settings) for system in (one, other)))
+    if one.points(one.p0) is not None:
+        assert np.array_equal(one.points(one.p0), other.points(other.p0))
+
+
+@needs_compiler
+def test_inputs_and_lanes_need_no_compiler(interpreted):
+    """Numbers that follow from inputs alone are computed anew when these change."""
+    q, u, a, b = sp.symbols("q u a b")
+
+    def make():
+        return zd.symbolic([q], speeds=[u], kinetic=u**2 * (2 + sp.cos(q)) / 2, force=[sp.cos(a * b) - u], p0=[0.3], v0=[0.0],
+                           parameters={a: 2.0, b: 0.5}, inputs=[b])
+
+    ends = []
+    for system in (make(), interpreted(make)):
+        many = zd.ManyRuns(system, runs=5, step=0.01, inputs=["b"])
+        alone = zd.Run(system, step=0.01, inputs=["b"])
+        for i in range(3):
+            many["b"], alone["b"] = np.arange(5.0) + i, 3.0 + i
+            many.step(10)
+            alone.step(10)
+        assert np.array_equal(many.p[3], alone.p)
+        ends.append(many.p)
+    assert np.array_equal(*ends)
 
 
 def test_a_system_without_a_closed_form_says_why():

@@ -1,10 +1,14 @@
 """Laws from data: splines as SciPy's, prescribed motions with their speeds, and what is refused."""
 
+import gc
+import pickle
+
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
 import zerodrift as zd
+from native_systems import needs_compiler
 from support import assert_close, refused
 
 
@@ -47,9 +51,66 @@ def test_a_force_from_measured_data():
     assert_close(sol["guide.displacement"], 0.1 * np.cos(np.sqrt(20) * sol.t), 1e-8, scale=1.0)
 
 
-def test_beyond_its_ends_a_table_is_an_error_that_says_where():
+def arm(drive, spring):
+    """Two links: the first follows a motion, and a torque that depends on the second angle acts on the other."""
+    m = zd.Mechanism("arm", gravity=(0, -9.81))
+    first, second = m.link("first", (0, 0), (1, 0), mass=1.0), m.link("second", (1, 0), (1, 1), mass=1.0)
+    pin, elbow = m.revolute("pin", m.ground, first.start), m.revolute("elbow", first.end, second.start)
+    m.motor("drive", pin, angle=drive)
+    m.torque("spring", second, value=spring, of={"q": elbow.angle})
+    return m
+
+
+TIMES, ANGLES = np.linspace(0, 2, 21), np.linspace(-30, 30, 61)
+
+
+def motion():
+    return zd.table(TIMES, np.sin(3 * TIMES) / 2)
+
+
+def stiffening():
+    return zd.table(ANGLES, -ANGLES - ANGLES**3 / 100, argument="q")
+
+
+@pytest.mark.parametrize("compiled", [None, pytest.param(True, marks=needs_compiler)])
+@pytest.mark.parametrize("other", ["table", "expression"])
+def test_tables_are_in_closed_form(compiled, other):
+    """As functions of Python that call the same tables, by matrices; with an expression of SymPy beside, too."""
+    q = pytest.importorskip("sympy").Symbol("q")
+    tables, spring = (motion(), stiffening()), -q - q**3 / 100
+    m = arm(tables[0], tables[1] if other == "table" else spring)
+    called = arm(lambda t: tables[0](t), (lambda q: tables[1](q)) if other == "table" else spring)
+    ours, theirs = zd.simulate(m.system(compiled=compiled), 2.0, step=0.01), zd.simulate(called, 2.0, step=0.01)
+    assert ours.stats["closed_form_steps"] == ours.stats["steps"]
+    assert theirs.stats["closed_form_steps"] == 0
+    assert_close(ours.p, theirs.p, 1e-10, scale=1.0)
+    assert_close(ours["pin.torque"], theirs["pin.torque"], 1e-8, scale=abs(theirs["pin.torque"]).max())
+
+
+def test_tables_live_as_long_as_systems_and_copies_of_these():
+    expected = zd.simulate(arm(motion(), stiffening()), 2.0, step=0.01).p
+    system = arm(motion(), stiffening()).system()
+    copy = pickle.loads(pickle.dumps(system))
+    many, alone = zd.ManyRuns(copy, runs=5, step=0.01), zd.Run(copy, step=0.01)
+    gc.collect()
+    for each in (many, alone):
+        each.step(200)
+    assert np.array_equal(zd.simulate(system, 2.0, step=0.01).p, expected)
+    assert np.array_equal(alone.p, expected[-1])
+    assert np.array_equal(many.p, np.tile(expected[-1], (5, 1)))
+
+
+def test_orders_of_elimination_do_not_depend_on_where_tables_stand():
+    """Two tables of different numbers have two entries in a cache, and the same one in any process."""
+    tables = (zd.table(TIMES, size * np.sin(3 * TIMES)) for size in (1, 2, 1))
+    one, other, again = (arm(table, -1.0).system()._closed_form[1]._key() for table in tables)
+    assert one == again != other
+
+
+@pytest.mark.parametrize("compiled", [None, False, pytest.param(True, marks=needs_compiler)])
+def test_beyond_its_ends_a_table_is_an_error_that_says_where(compiled):
     with refused("out-of-range", r"the table goes from t = 0 to 1, and its value at 1\.\d+"):
-        zd.simulate(driven(zd.table([0, 1], [0, 1])), 2.0, step=0.3)
+        zd.simulate(driven(zd.table([0, 1], [0, 1])).system(compiled=compiled), 2.0, step=0.3)
 
 
 @pytest.mark.parametrize(("x", "y", "code", "message"), [

@@ -116,7 +116,7 @@ def test_models_move_as_by_python(model, monkeypatch):
 def test_other_numbers_and_parameters_are_not_written_again(monkeypatch):
     first = scene(motion, 2).system()
     zd.simulate(first, 0.1, step=0.01)
-    monkeypatch.setattr(function_programs, "_made", lambda *_: pytest.fail("written again"))
+    monkeypatch.setattr(function_programs, "Lowering", lambda *_: pytest.fail("written again"))
     changed = first.with_parameters(k=0.1)
     sol = zd.simulate(changed, 1.0, step=0.01)
     assert sol["guide.displacement"] == pytest.approx(0.3 * np.sin(2.5 * sol.t + 0.2) * np.exp(-0.4 * sol.t) + 0.1 * sol.t**2,

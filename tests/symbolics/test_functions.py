@@ -1,5 +1,6 @@
-"""Every function that `symbolic` takes, compiled and in Python, against SymPy's own values: also where it has none."""
+"""Every function that `symbolic` takes, compiled and by programs, against SymPy's own values: also where it has none."""
 
+import copy
 import math
 
 import numpy as np
@@ -10,7 +11,6 @@ from sympy.codegen import cfunctions as c
 import zerodrift as zd
 from support import refused
 from zerodrift.symbolics.graph import sympy_functions
-from zerodrift.symbolics.system import _compiled
 
 X, DX, Y, DY = sp.symbols("x dx y dy")
 RANDOM = np.random.default_rng(1)
@@ -47,17 +47,12 @@ def expected(function, arguments):
 
 
 def forces(variables, rates, expressions):
-    """Functions of coordinates that evaluate these: compiled, and in Python."""
+    """Functions of coordinates that evaluate these: compiled, and by programs."""
     system = zd.symbolic(variables, speeds=rates, kinetic=sum(v**2 for v in rates) / 2, force=expressions, potential=None)
     assert system.compiled
-    in_python = _compiled(system._code.python_source)
-
-    def slow(p):
-        out = {"f": np.zeros(system.nv)}
-        in_python({"f"}, 0.0, np.asarray(p).tolist(), [0.0] * system.nv, [], out)
-        return out["f"]
-
-    return lambda p: system.evaluate(p).f, slow
+    by_programs = copy.copy(system)
+    by_programs._core = by_programs._programmed()
+    return lambda p: system.evaluate(p).f, lambda p: by_programs.evaluate(p).f
 
 
 @pytest.mark.parametrize(("many", "arguments"), [(ONE, [(x,) for x in ARGUMENTS]), (TWO, PAIRS)], ids=["one argument", "two"])
@@ -67,7 +62,7 @@ def test_values_are_those_of_sympy_and_none_where_it_has_none(many, arguments):
     rates = sp.symbols(f"v:{n * size}")
     expressions = [f(*variables[i * size:(i + 1) * size]) for i, f in enumerate(many)]
     wrong = []
-    for where, evaluate in zip(("C", "Python"), forces(variables, rates, [*expressions, *[0] * (n * size - n)]), strict=True):
+    for where, evaluate in zip(("C", "programs"), forces(variables, rates, [*expressions, *[0] * (n * size - n)]), strict=True):
         for given in arguments:
             for function, got in zip(many, evaluate(np.array([*given] * n, dtype=float)), strict=False):
                 value = expected(function, given)

@@ -44,7 +44,8 @@ static zd_block *with_positions(struct zd_opened *self, double t)
         const int measure = measure_of_drive(&block->layout, i);
         if (measure < 0 || row[NONHOLONOMIC] == 0) continue;
         system->measures->evaluate(system->data, NULL, measure, t, zd_run_p(self->run), self->v, NULL, NULL, &value, self->scratch);
-        if (zd_block_law(&block->laws, (int)row[LAW], t, &x, self->v, out)) continue;
+        zd_expressions_evaluate(block->laws.law + (int)row[LAW], block->laws.program[(int)row[LAW]].numbers, t, &x, self->v, out);
+        if (!isfinite(out[2])) continue;
         row[NONHOLONOMIC] = 0, row[LAW] = -1, row[CONSTANT] = x + out[2] * t, row[SLOPE] = -out[2];
     }
     zd_block *made = zd_block_create(copy, block->size, NULL, 0);

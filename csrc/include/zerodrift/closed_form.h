@@ -56,4 +56,10 @@ typedef struct zd_closed_form {
     const zd_elimination *embedding;    /* (embeddings,) with embed() instead of accelerate() and finish(); for one lane only */
 } zd_closed_form;
 
+/* Piecewise cubic: for each knot its abscissa, and coefficients of powers 3, 2, 1, 0 of the distance from it, valid to the next. */
+typedef struct zd_spline {
+    int knots;              /* at least 2 */
+    const double *knot;     /* (knots, 5) */
+} zd_spline;
+
 #endif

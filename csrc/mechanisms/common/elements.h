@@ -98,6 +98,7 @@ typedef struct zd_elements {
     const zd_output_spec *measure;
     zd_law *law;                /* NULL: there is none */
     void *owner;                /* first argument of `law` */
+    const zd_law_program *program;      /* by index of the user function: expressions, used instead of `law`. NULL: there are none */
     double length;              /* m: that moments are divided by in the sum that the least reactions minimize; 0: 1 m */
     int laws_know_time;         /* 1 if a user function depends on t explicitly, not only through positions and velocities */
     const zd_reading *reading;  /* without evaluate(); NULL: no user function reads reactions */

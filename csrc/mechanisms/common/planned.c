@@ -105,7 +105,7 @@ zd_planned_elements zd_elements_plan(const zd_elements *elements, const zd_eleme
         .length = elements->length > 0 ? elements->length : 1, .term = from->term, .coefficient = from->coefficient, .row = from->row,
         .owner_of_constraint = from->owner_of_constraint, .constraint_of_relation = from->constraint_of_relation,
         .force = from->force, .output = from->output,
-        .law = elements->law, .owner = elements->owner, .has_velocity_forces = forces_know_velocity(elements),
+        .law = elements->law, .owner = elements->owner, .program = elements->program, .has_velocity_forces = forces_know_velocity(elements),
     };
 }
 

@@ -7,6 +7,7 @@ from typing import Any, Literal, Protocol, TypedDict
 import numpy as np
 from numpy.typing import ArrayLike as ArrayLike
 
+from ..mechanisms.elements.bodies import Body as Body
 from ..mechanisms.elements.bodies import Point as Point
 from ..mechanisms.elements.measures import Measure as Measure
 from ..mechanisms.mechanism import Mechanism as Mechanism
@@ -28,6 +29,8 @@ MeasureLike = Measure | str
 Measures = Sequence[MeasureLike]
 EventLike = Event | Measure | str | Expression | Callable[[float, np.ndarray, np.ndarray], float]
 Events = EventLike | Sequence[EventLike]
+Names = MeasureLike | Measures
+Points = Point | MeasureLike | Sequence[Point | MeasureLike]
 Inputs = MeasureLike | Sequence[MeasureLike] | Mapping[str, tuple[float, float] | None]
 LawLike = float | Expression | Callable[..., Any]
 UserFunction = Callable[..., Any]

@@ -213,16 +213,16 @@ def _with_inputs(chosen: Chosen, tables: Any, packed: Any, texts: blocks.Texts) 
     """Tables whose driven speeds read inputs, the section of inputs, and the programs of all user functions."""
     programs, sizes = Programs(), law_sizes(packed)
     for i, row in enumerate(tables.laws.rows):
-        programs.add(row, *sizes[i])
+        programs.add(row, sizes[i][0])
     relations, found = list(packed.relations), []
-    for number, name in enumerate(chosen.inputs):
+    for name in chosen.inputs:
         kind, index = _target(name, tables)
         value = packed.forces[index].value if kind == "force" else relations[index].slope
         if kind == "speed":
-            law = programs.add_speed(number)
-            relations[index] = relations[index]._replace(nonholonomic=True, constant=0.0, slope=0.0, law=law)
+            law = programs.add_speed(name)
+            relations[index], index = relations[index]._replace(nonholonomic=True, constant=0.0, slope=0.0, law=law), law
         unit = next((row.unit for row in tables.observed if row.name == name), "rad/s" if kind == "speed" else "N")
-        found += [texts.offset(name), texts.offset(unit), blocks.INPUTS[kind], index if kind == "force" else 0, value]
+        found += [texts.offset(name), texts.offset(unit), blocks.INPUTS[kind], index, value]
     return packed._replace(relations=relations), found, programs
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import functools
 import inspect
 from pathlib import Path
 from typing import Any
@@ -10,8 +11,10 @@ from typing import Any
 import numpy as np
 
 from .._private import checks
+from .._private.gateway.compiled import programs
 from .._private.types import ArrayLike
 from ..errors import WrongType, WrongValue
+from ..symbolics.graph.plain_functions import SPLINE
 from ..systems import autodiff
 
 BEYOND = 1e-9       # of the table's length: rounding beyond its ends that is accepted
@@ -110,6 +113,28 @@ class Table:
         for coefficient in self.coefficients[:, piece]:
             result = result * s + float(coefficient)
         return result
+
+    def written(self, equations: Any, **at: Any) -> Any:
+        """Node of its value."""
+        graph, (x,) = equations.graph, at.values()
+        return graph.call(SPLINE, equations.spline(self), x, graph.zero)
+
+    @property
+    def knots(self) -> np.ndarray:
+        """The core's numbers (n, 5) of a `zd_spline`."""
+        return np.vstack([np.column_stack([self.x[:-1], self.coefficients.T]), [self.x[-1], *[0.0] * 4]])
+
+    @functools.cached_property
+    def _spline(self) -> Any:
+        return programs.spline(self.knots)
+
+    @property
+    def address(self) -> float:
+        """The number that stands for it in programs, as long as it lives."""
+        return programs.address(self._spline)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in vars(self).items() if name != "_spline"}
 
     @property
     def _allowed(self) -> float:

@@ -187,7 +187,7 @@ class MechanismSystem(Reported):
         if key not in cores:
             functions = self._closed_form[1].embedding if embeds else self._closed_form[1]
             cores[key] = (self._written.with_closed_form(functions, vector) if self.compiled else
-                          self._written.with_programs(functions, embeds))
+                          self._written.with_programs(functions))
         return cores[key]
 
     def _core_in_lanes(self, vector: str, embeds: bool = False) -> MechanismCore:

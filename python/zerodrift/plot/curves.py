@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 
 from .._private import checks
 from .._private.gateway import Variable
+from .._private.types import Names
 from ..errors import WrongValue
 from ..runs.samples.columns import columns
 from ..runs.samples.solution import A_SOLUTION, Solution
@@ -61,7 +62,7 @@ def _with_samples_of_lines(sol: Solution, style: dict[str, Any]) -> Solution:
     return sol if style.get("marker") else dense(sol)
 
 
-def measures(sol: Solution, names: Any, ax: Axes | None = None, **style: Any) -> Axes:
+def measures(sol: Solution, names: Names, ax: Axes | None = None, **style: Any) -> Axes:
     """Draw measures, coordinates, velocities or multipliers over time, a line for each component; reactions, for example.
 
     Parameters

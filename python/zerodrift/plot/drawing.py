@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from .._private import checks
-from .._private.types import ArrayLike, SystemLike
+from .._private.types import ArrayLike, Points, SystemLike
 from ..errors import WrongType, WrongValue
 from ..runs.samples.solution import A_SOLUTION, Solution
 from ..studies.compare import nearest
@@ -32,8 +32,8 @@ QUIET = "#6E6E6E"
 
 
 def mechanism(system_or_solution: SystemLike | Solution, p: ArrayLike | None = None, ax: Axes | None = None, *,
-              t: float | None = None, ghosts: Any = None, names: bool = False, path: Any = (), forces: Any = False,
-              force_scale: float | None = None) -> Axes:
+              t: float | None = None, ghosts: ArrayLike | None = None, names: bool = False, path: Points = (),
+              forces: bool | Sequence[str] = False, force_scale: float | None = None) -> Axes:
     """Draw a system in one position, or a solution at one time with faint other positions.
 
     Mechanisms are drawn with the symbols of textbooks: bars and plates with pins, hatched ground, sliders on rails, blocks in
@@ -120,7 +120,7 @@ def _drawn(system: BaseSystem, moments: list[list[Shape]] | np.ndarray, ax: Axes
     return picture.ax
 
 
-def path(sol: Solution, points: Any, ax: Axes | None = None, **style: Any) -> Axes:
+def path(sol: Solution, points: Points, ax: Axes | None = None, **style: Any) -> Axes:
     """Draw the paths of points of a mechanism in the plane or in space, to equal scales.
 
     `mechanism(sol, path=...)` draws the mechanism, too.
@@ -162,7 +162,7 @@ def path(sol: Solution, points: Any, ax: Axes | None = None, **style: Any) -> Ax
 
 
 def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: float = 1.0, names: bool = False,
-            path: Any = (), forces: Any = False, force_scale: float | None = None) -> FuncAnimation:
+            path: Points = (), forces: bool | Sequence[str] = False, force_scale: float | None = None) -> FuncAnimation:
     """Animate a motion in real time, drawn as by `mechanism`.
 
     In a notebook: ``HTML(zd.plot.animate(sol).to_jshtml())`` with ``from IPython.display import HTML``. To a file:

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 
 from .._private import checks
 from .._private.gateway import Variable
+from .._private.types import ArrayLike, MeasureLike
 from ..ensembles.result import Ensemble
 from ..errors import WrongValue
 from . import style as _style
@@ -19,7 +20,7 @@ AN_ENSEMBLE = "what zd.ensemble returns"
 CROSS: dict[str, Any] = {"color": "#B22222", "markersize": 3, "markeredgewidth": 0.8}      # of runs that failed
 
 
-def bands(ens: Ensemble, name: Any, quantiles: Sequence[float] = QUANTILES, ax: Axes | None = None, **style: Any) -> Axes:
+def bands(ens: Ensemble, name: MeasureLike, quantiles: Sequence[float] = QUANTILES, ax: Axes | None = None, **style: Any) -> Axes:
     """Draw how an output spreads over time: areas between quantiles of all runs, and a line at the middle one.
 
     Runs count as long as they have rows.
@@ -80,8 +81,8 @@ def bands(ens: Ensemble, name: Any, quantiles: Sequence[float] = QUANTILES, ax: 
     return _style.finished(ax, _style.labelled(variable))
 
 
-def against(ens: Ensemble, parameter: str, of: Any = None, ax: Axes | None = None, *, at: float | None = None,
-            color_by: str | None = None, **style: Any) -> Axes:
+def against(ens: Ensemble, parameter: str, of: MeasureLike | ArrayLike | None = None, ax: Axes | None = None, *,
+            at: float | None = None, color_by: str | None = None, **style: Any) -> Axes:
     """Draw a result of each run against one of its parameters; runs that failed are crosses on the lower edge.
 
     Parameters
@@ -128,7 +129,8 @@ def against(ens: Ensemble, parameter: str, of: Any = None, ax: Axes | None = Non
     return ax
 
 
-def heat_map(ens: Ensemble, of: Any = None, ax: Axes | None = None, *, at: float | None = None, **style: Any) -> Axes:
+def heat_map(ens: Ensemble, of: MeasureLike | ArrayLike | None = None, ax: Axes | None = None, *, at: float | None = None,
+             **style: Any) -> Axes:
     """Draw what each run comes to over a grid of two parameters, as colours; runs that failed are crossed out.
 
     Parameters

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 
 from .._private import checks
 from .._private.gateway import Variable
+from .._private.types import ArrayLike, Names, Points
 from ..errors import WrongIndex, WrongType, WrongValue
 from ..mechanisms.elements.measures import name_of
 from ..tracing.trace_result import Trace
@@ -22,7 +23,7 @@ OTHERS = 8              # positions besides the first
 DEGREES = {"rad": "°"}
 
 
-def trace(traced: Trace, names: Any, ax: Axes | None = None, *, degrees: bool = False, **style: Any) -> Axes:
+def trace(traced: Trace, names: Names, ax: Axes | None = None, *, degrees: bool = False, **style: Any) -> Axes:
     """Draw measures over the measure that was traced; dead points that were passed are circles.
 
     Parameters
@@ -79,7 +80,8 @@ def trace(traced: Trace, names: Any, ax: Axes | None = None, *, degrees: bool = 
     return ax
 
 
-def positions(traced: Trace, at: Any = None, ax: Axes | None = None, *, names: bool = False, path: Any = ()) -> Axes:
+def positions(traced: Trace, at: ArrayLike | None = None, ax: Axes | None = None, *, names: bool = False,
+              path: Points = ()) -> Axes:
     """Draw a mechanism in several traced positions: the first as it is, the others faintly, with the paths of points.
 
     Parameters

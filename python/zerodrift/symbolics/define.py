@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 from numpy.typing import ArrayLike
@@ -19,8 +19,8 @@ from ..systems.structure import Structure
 from .arguments import Definition
 from .cache_key import fingerprint
 from .compile import cache
-from .emit import closed_form, splitting
-from .emit.writers import PythonWriter
+from .elimination.steps import Unwritten
+from .emit import closed_form, program_writer, splitting
 from .graph.blocks import Blocks
 from .graph.derivation import Derivation
 from .graph.lowering import Lowering
@@ -108,7 +108,7 @@ def symbolic(
     have write access; otherwise a `CacheWarning` is issued, and the folder is not used. On Windows permissions are not checked:
     there ZERODRIFT_CACHE must name a folder closed to other users, as the user's cache folder is. Administrators may fill a
     folder for all users, as root and readable by all. The compiler is the command in CC, or else cc, gcc or clang, on Windows
-    Visual Studio's or MinGW's, or that of the package ziglang. Without a compiler the system is evaluated in Python, with a
+    Visual Studio's or MinGW's, or that of the package ziglang. Without a compiler the system is interpreted by the core, with a
     `NoCompilerWarning`. CFLAGS is not read: flags can be part of CC.
 
     Examples
@@ -177,15 +177,25 @@ def _derive(definition: Definition, say: Progress) -> Code:
     c_source, constants, scratch = splitting.source(blocks, definition.heading(), len(definition.values))
     drawing = definition.drawing(reader)
     sketch = Lowering(reader.graph)
-    drawn = Blocks(sketch, {"points": [sketch.lower(node) for point in drawing for node in point]})
+    drawn = [sketch.lower(node) for point in drawing for node in point]
     return Code(
         coordinates=definition.coordinate_names, velocities=definition.velocity_names,
         constraints=definition.constraint_names, parameters=tuple(definition.values),
         sizes=sizes, structure=structure, provides=tuple(terms),
         timeless=all(operation.arguments[0] != "t" for operation in lowering.operations if operation.code == "leaf"),
-        constants=constants, scratch=scratch, c_source=c_source, python_source=PythonWriter(blocks).source(),
-        drawing=(len(drawing), len(drawing[0]) if drawing else 0), drawing_source=PythonWriter(drawn).source(),
+        constants=constants, scratch=scratch, c_source=c_source,
+        programs=_or_reason(lambda: program_writer.terms(blocks, len(definition.values), given.nq, given.nv)),
+        drawing=len(drawing[0]) if drawing else 0,
+        drawing_program=_or_reason(lambda: program_writer.expressions(sketch, drawn, len(definition.values), given.nq)),
         program=closed_form.as_json(lowering, outputs))
+
+
+def _or_reason(write: Callable[[], Any]) -> Any:
+    """Programs, or the reason why they are not written."""
+    try:
+        return write()
+    except Unwritten as reason:
+        return str(reason)
 
 
 def _stored(outputs: dict[str, list[int]], structure: dict[str, Any] | None) -> dict[str, list[int]]:

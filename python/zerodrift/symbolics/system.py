@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import ctypes
-import math
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from functools import cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .._private import checks, gateway
-from .._private.gateway import TERMS, NativeCore, Variable
+from .._private.gateway import NativeCore, Variable
+from .._private.gateway.compiled import programs
 from .._private.gateway.compiled.precise import Precise
+from .._private.gateway.compiled.programs import ProgrammedCore
 from .._private.gateway.inputs import Bound, Place
 from ..errors import NeedsCompiler, NoCompilerWarning, UnsuitedIntegrator, WrongValue
 from ..systems.base import BaseSystem
@@ -25,8 +25,9 @@ from ..systems.structure import Structure, checked
 from ..systems.variables import quaternion_places, with_units
 from . import rounding_factors
 from .compile import compilers, shared_library
-from .compile.closed_form_library import CLOSED_FORM, NO_COMPILER, ClosedFormFunctions
+from .compile.closed_form_library import CLOSED_FORM, ClosedFormFunctions
 from .compile.series_library import JacobianFunctions, PreciseFunctions, SeriesFunctions
+from .emit.program_writer import Expressions, Terms
 from .graph.smoothness import is_plain_program
 
 
@@ -45,9 +46,9 @@ class Code:
     constants: int                      # that follow from the parameters
     scratch: int
     c_source: str
-    python_source: str
-    drawing: tuple[int, int]            # points, dimension
-    drawing_source: str
+    programs: Any                       # of the terms, where they are not compiled, or why there are none
+    drawing: int                        # dimension; 0: there is none
+    drawing_program: Any                # or why there is none
     program: dict[str, Any] | str       # from which closed-form functions are written, or why they are not
 
     @classmethod
@@ -68,8 +69,10 @@ class SymbolicSystem(BaseSystem):
     ----------
     parameters : dict of str to float
     compiled : bool
-        False where there was no compiler and it is evaluated in Python.
+        False where there was no compiler, and programs are interpreted.
     """
+
+    _core: NativeCore
 
     def __init__(self, code: Code, parameters: Mapping[str, float], units: Sequence[str] | None = None, p0: Any = None,
                  v0: Any = None, name: str = "symbolic", progress: Callable[[str], Any] = lambda what: None,
@@ -86,7 +89,8 @@ class SymbolicSystem(BaseSystem):
         self._values = np.array([checks.number(f"parameter {key!r}", parameters[key]) for key in code.parameters])
         is_length = [gateway.is_length(variable) for variable in (*self.coordinates, *self.velocities)]
         self._closed_form = closed_form or ClosedFormFunctions(
-            code.program, code.sizes, self._values, self.p0, np.array(is_length), len(self._values) + code.constants)
+            code.program, code.sizes, self._values, self.p0, np.array(is_length), len(self._values) + code.constants,
+            inputs=[code.parameters.index(name) for name in self._inputs])
         self._series = SeriesFunctions(code.program, code.sizes)
         self._precise = PreciseFunctions(code.program, code.sizes)
         self._jacobian = JacobianFunctions(code.program, code.sizes)
@@ -94,9 +98,9 @@ class SymbolicSystem(BaseSystem):
         self._library = shared_library.library(code.c_source, progress, meanwhile=self._closed_form.prepare)
         self.compiled = self._library is not None
         if not self.compiled:
-            warnings.warn(f"there is no C compiler (looked for {compilers.looked_for()}): {self.name} is evaluated in Python, "
-                          f"some hundred times slower", NoCompilerWarning, stacklevel=3)
-        self._core = self._native() if self.compiled else self._in_python()
+            warnings.warn(f"there is no C compiler (looked for {compilers.looked_for()}): {self.name} is interpreted, "
+                          f"some times slower", NoCompilerWarning, stacklevel=3)
+        self._core = self._native() if self.compiled else self._programmed()
         self._with_closed_form: dict[tuple[str, bool], NativeCore] = {}     # by vector unit, and whether they embed
 
     def _native(self) -> NativeCore:
@@ -116,8 +120,10 @@ class SymbolicSystem(BaseSystem):
 
     def _closed_form_core(self, vector: str = "baseline", embeds: bool = False) -> gateway.CoreSystem:
         functions, core = self._functions(embeds), self._core
-        library = functions.library(vector) if self.compiled else None
-        if library is None or not isinstance(core, NativeCore):
+        if isinstance(core, ProgrammedCore):
+            return self._with_programs(core, embeds)
+        library = functions.library(vector)
+        if library is None:
             return core
         if (vector, embeds) not in self._with_closed_form:
             data = self._with_closed_form_data(library, functions)
@@ -126,10 +132,10 @@ class SymbolicSystem(BaseSystem):
         return self._with_closed_form[vector, embeds]
 
     def _why_no_closed_form(self, embeds: bool = False) -> str:
-        return self._functions(embeds).why_none if self.compiled else NO_COMPILER
+        return self._functions(embeds).why_none
 
-    def _with_series(self, core: gateway.CoreSystem, vector: str = "baseline") -> gateway.CoreSystem:
-        if not isinstance(core, NativeCore):
+    def _with_series(self, core: Any, vector: str = "baseline") -> gateway.CoreSystem:
+        if not self.compiled:
             return core
         if self._series.why_none:
             raise UnsuitedIntegrator(f"{self.name} has no Taylor series: {self._series.why_none}")
@@ -143,9 +149,9 @@ class SymbolicSystem(BaseSystem):
         numbers = np.stack([self._values, np.zeros(len(self._values))], axis=-1)
         return Precise(gateway.address_of(library, PreciseFunctions.symbol), numbers, self._code.sizes, library)
 
-    def _with_jacobian(self, core: gateway.CoreSystem, vector: str = "baseline") -> gateway.CoreSystem:
+    def _with_jacobian(self, core: Any, vector: str = "baseline") -> gateway.CoreSystem:
         library = self._jacobian.library(vector) if self.compiled else None
-        if library is None or not isinstance(core, NativeCore):
+        if library is None:
             return core
         return core.with_jacobian(gateway.address_of(library, JacobianFunctions.symbol), library)
 
@@ -182,8 +188,6 @@ class SymbolicSystem(BaseSystem):
                 known = f"; {checks.closest(name, self._inputs)}" if self._inputs else ""
                 raise WrongValue(f"inputs of {self.name} must be declared, zd.symbolic(..., inputs=[...]), and {name!r} is not"
                                  f"{known}", "wrong-name")
-        if not self.compiled:
-            raise WrongValue(f"inputs of {self.name} need a C compiler", "not-available")
         return WithInputs(self, [self.parameters[name] for name in names], [""] * len(names), self._bound)
 
     def _names_of_inputs(self) -> list[str]:
@@ -191,6 +195,10 @@ class SymbolicSystem(BaseSystem):
 
     def _bound(self, core: NativeCore, names: Sequence[str]) -> Bound:
         """The system of one run, with data of its own."""
+        if isinstance(core, ProgrammedCore):
+            numbers = core.numbers.copy()
+            mine, pointer = core.with_numbers(numbers), gateway.doubles(numbers, numbers.size)
+            return Bound(mine, [Place(name, False, pointer + self._code.parameters.index(name)) for name in names], [], numbers)
         alone = core.without_lanes or core
         libraries = [self._library, next((functions.library(vector) for (vector, embeds), known in self._with_closed_form.items()
                                           for functions in [self._functions(embeds)] if known is alone), None)]
@@ -202,7 +210,7 @@ class SymbolicSystem(BaseSystem):
     def _core_in_lanes(self, vector: str, embeds: bool = False) -> gateway.CoreSystem:
         """System of one run with functions for SIMD lanes as well; these do not support independent velocities."""
         core = self._closed_form_core(vector, embeds)
-        library = None if embeds or core is self._core else self._closed_form.library_in_lanes(vector)
+        library = self._closed_form.library_in_lanes(vector) if self.compiled and not embeds and core is not self._core else None
         return core if library is None else core.with_lanes(gateway.address_of(library, CLOSED_FORM), library)
 
     def _with_closed_form_data(self, library: ctypes.CDLL, functions: ClosedFormFunctions) -> np.ndarray:
@@ -231,10 +239,19 @@ class SymbolicSystem(BaseSystem):
         refused = refusals(self._with, parameters, not_finite(parameters, count))
         return NumberTables(core, data, data.shape[1], self.p0, self.v0, refused)
 
-    def _in_python(self) -> gateway.PythonCore:
-        code, written = self._code, _InPython(self._code.python_source, self._values.tolist())
-        return gateway.PythonCore(code.sizes, code.provides, written, (*self.coordinates, *self.velocities),
-                                   timeless=code.timeless, quaternions=self._places, packing=self._packing)
+    def _programmed(self) -> ProgrammedCore:
+        code = self._code
+        if isinstance(code.programs, str):
+            raise NeedsCompiler(f"{self.name} has no C compiler, and no programs: {code.programs}")
+        return ProgrammedCore(Terms(*code.programs), self._values, code.sizes, (*self.coordinates, *self.velocities),
+                              timeless=code.timeless, quaternions=self._places, packing=self._packing)
+
+    def _with_programs(self, core: ProgrammedCore, embeds: bool) -> gateway.CoreSystem:
+        """System with closed-form functions by programs, if there are any."""
+        if ("", embeds) not in self._with_closed_form:
+            found = self._functions(embeds).interpreted(self._values)
+            self._with_closed_form["", embeds] = core.with_closed_forms(*found) if found else core
+        return self._with_closed_form["", embeds]
 
     @property
     def c_source(self) -> str:
@@ -247,8 +264,8 @@ class SymbolicSystem(BaseSystem):
         other.parameters, other._values = self.parameters | changed, self._values.copy()
         for key, value in changed.items():
             other._values[self._code.parameters.index(key)] = checks.number(f"parameter {key!r}", value)
-        other._core = (self._core.with_data(other._data()) if isinstance(self._core, NativeCore)
-                       else other._in_python())
+        other._core = (self._core.with_numbers(other._values) if isinstance(self._core, ProgrammedCore)
+                       else self._core.with_data(other._data()))
         return other
 
     def starting(self, p0: Any = None, v0: Any = None) -> SymbolicSystem:
@@ -272,21 +289,21 @@ class SymbolicSystem(BaseSystem):
 
     def points(self, p: ArrayLike) -> np.ndarray | Any:
         """Points of the drawing at p, (n, 2) or (n, 3), joined by lines except at NaN; None without a drawing."""
-        count, dimension = self._code.drawing
-        if not count:
+        if not self._code.drawing:
             return None
-        drawing = np.empty(count * dimension)
-        values = [self.parameters[key] for key in self._code.parameters]
-        _compiled(self._code.drawing_source)(
-            {"points"}, 0.0, checks.vector("p", p, self.nq).tolist(), (), values, {"points": drawing})
-        return drawing.reshape(count, dimension)
+        if isinstance(self._code.drawing_program, str):
+            raise NeedsCompiler(f"{self.name} has no drawing: {self._code.drawing_program}")
+        written = Expressions(*self._code.drawing_program)
+        at, t = checks.vector("p", p, self.nq)[None], np.zeros(1)
+        drawn = programs.reader(programs.expressions(written), [*self._values, *written.literals], t, at, t[:0])()
+        return drawn.reshape(-1, self._code.drawing)
 
     def __repr__(self) -> str:
-        how = self._closed_form.in_words if self.compiled else ", evaluated in Python"
+        how = self._closed_form.in_words if self.compiled else ", interpreted"
         return f"<zd.symbolic {self.name}: {self._sizes_in_words()}{how}>"
 
     def _definition(self) -> str:
-        return self._code.python_source
+        return self._code.c_source
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (self._code, self.parameters, self._units, self.p0, self.v0, self.name, self._places, self._closed_form,
@@ -296,73 +313,3 @@ class SymbolicSystem(BaseSystem):
 def _restored(code: Code, parameters: dict[str, float], units: Any, p0: Any, v0: Any, name: str, places: tuple[int, ...],
               closed_form: ClosedFormFunctions, inputs: tuple[str, ...] = ()) -> SymbolicSystem:
     return SymbolicSystem(code, parameters, units, p0, v0, name, quaternions=places, closed_form=closed_form, inputs=inputs)
-
-
-# ---- without a compiler ----
-
-
-class _InPython:
-    """Writes the wanted terms into the core's arrays."""
-
-    def __init__(self, source: str, values: list[float]) -> None:
-        self._evaluate, self._values = _compiled(source), values
-
-    def __call__(self, want: int, t: float, arrays: dict[str, np.ndarray]) -> None:
-        names = {name for name, term in TERMS.items() if want & term.bit}
-        out = {name: arrays[name].reshape(-1) for name in names}
-        self._evaluate(names, t, arrays["p"].tolist(), arrays["v"].tolist(), self._values, out)
-
-    @staticmethod
-    def not_finite(name: str, t: float, value: np.ndarray) -> Exception:
-        return WrongValue(f"{name} is not finite at t = {t:g}: {value}", "not-finite")
-
-
-@cache
-def _compiled(source: str) -> Callable[..., None]:
-    """Function compiled from the Python source that `emission` wrote."""
-    names: dict[str, Any] = {"math": _Mathematics, "divide": _divide, "power": _guarded(math.pow), "missing": _missing,
-                             "root": _guarded(math.sqrt)}
-    exec(compile(source, "<zerodrift.symbolic>", "exec"), names)
-    return names["evaluate"]
-
-
-def _guarded(function: Callable[..., float]) -> Callable[..., float]:
-    """Wrap a function so that it returns NaN or an infinity, as in C, instead of raising."""
-    def guarded(*arguments: float) -> float:
-        try:
-            return float(function(*arguments))
-        except (ValueError, OverflowError, ZeroDivisionError):
-            return _as_in_c(function.__name__, arguments)
-    return guarded
-
-
-# where NumPy calls them otherwise
-NUMPY = {"pow": np.power, "asin": np.arcsin, "acos": np.arccos, "acosh": np.arccosh, "atanh": np.arctanh}
-
-
-def _as_in_c(name: str, arguments: tuple[float, ...]) -> float:
-    function = NUMPY.get(name) or getattr(np, name, None)
-    if function is None:    # of the gamma functions, which Python raises errors for at poles, and where they overflow
-        return math.inf if name == "lgamma" or arguments[0] > 0 else math.nan
-    with np.errstate(all="ignore"):
-        return float(function(*arguments))
-
-
-class _Guards(type):
-    def __getattr__(cls, name: str) -> Any:
-        found = getattr(math, name)
-        return _guarded(found) if callable(found) else found
-
-
-class _Mathematics(metaclass=_Guards):
-    """The functions of `math`, guarded."""
-
-
-def _divide(a: float, b: float) -> float:
-    if b == 0:
-        return math.nan if a == 0 or a != a else math.copysign(math.inf, a) * math.copysign(1.0, b)
-    return a / b
-
-
-def _missing(name: str) -> float:
-    raise NeedsCompiler(f"Python has no {name}; with a C compiler it can be evaluated")

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..._private import checks
 from ...errors import WrongType, WrongValue
-from ...laws.table import recognised
+from ...laws.table import Table, recognised
 from ...symbolics.graph.smoothness import is_plain_expression
 from ...systems import autodiff
 from ...systems.user_callables import arguments
@@ -168,6 +168,11 @@ class Law:
                              "its place", "not-portable")
 
     @property
+    def table(self) -> Table | None:
+        """The table that it is, if it is one."""
+        return self._function if isinstance(self._function, Table) else None
+
+    @property
     def has_nodes(self) -> bool:
         """True if `written` gives its node: a callable's computation is known to Python only."""
         return self._function is None or hasattr(self._function, "written")
@@ -197,7 +202,7 @@ class InputLaw:
     reactions: Mapping[str, str] = MappingProxyType({})
     names: tuple[str, ...] = ()
     kind: tuple[Any, ...] = ()
-    constant = expression = inner_expression = None
+    constant = expression = inner_expression = table = None
     has_expression, is_plain, has_nodes = False, True, True
 
     def __init__(self, name: str, initial: float, *, is_speed: bool) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...errors import WrongValue
 from ...systems.autodiff import Jet
-from ..elements.user_functions import Law
+from ..elements.user_functions import InputLaw, Law
 from . import function_programs
 
 
@@ -19,7 +19,7 @@ class Call:
     Reactions that it reads follow the marker quantities.
     """
 
-    def __init__(self, law: Law, picks: Sequence[tuple[int, bool]], parameters: Mapping[str, float]) -> None:
+    def __init__(self, law: Law | InputLaw, picks: Sequence[tuple[int, bool]], parameters: Mapping[str, float]) -> None:
         self.law, self.picks, self.parameters = law, tuple(picks), parameters
 
     def _numbers(self, t: float, x: np.ndarray, xdot: np.ndarray) -> float:
@@ -131,6 +131,11 @@ class Laws:
         if len(self._programs) != len(self.rows):
             self._programs = [function_programs.program(row, sizes[i][0]) for i, row in enumerate(self.rows)]
         return self._programs
+
+    @property
+    def tables(self) -> list[Any]:
+        """Tables, in the order of the user functions that they are."""
+        return list(dict.fromkeys(row.law.table for row in self.rows if row.law.table is not None))
 
     def check_written(self) -> None:
         """Check that code can be generated for all of them: they must not be callables."""

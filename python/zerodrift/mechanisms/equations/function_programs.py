@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..._private.gateway.compiled import programs
 from ...symbolics.elimination.steps import Unwritten
 from ...symbolics.emit import program_writer
 from ...symbolics.graph.law_terms import Leaves
@@ -19,40 +20,48 @@ from ...symbolics.graph.plain_functions import Plain
 
 Program = tuple[tuple[Any, Any], np.ndarray]        # a `zd_expressions` with what it refers to, and its numbers
 
-_graphs: dict[Any, tuple[Any, Any]] = {}            # graphs with the nodes of results, by template and names
-_programs: dict[Any, tuple[Any, list[float]] | None] = {}   # with the literals of each; None: the core lacks a function
+_programs: dict[Any, program_writer.Expressions] = {}   # by template and names
+
+
+class Written(NamedTuple):
+    """A user function as a program, its numbers, and splines by the places of those that stand for them."""
+
+    program: program_writer.Expressions
+    numbers: list[float]
+    splines: dict[int, Any]
 
 
 def program(row: Any, k: int) -> Program | None:
     """User function of k marker quantities as a program; None if it is known to Python only."""
     if not row.law.has_nodes:
         return None
+    try:
+        written, numbers, tables = program_of(row, k)
+    except (Unwritten, TypeError, ValueError):      # a function that has no counterpart in C
+        return None
+    made, keep = programs.expressions(written)
+    return (made, (keep, tables)), programs.with_addresses(np.array(numbers), tables)
+
+
+def program_of(row: Any, k: int) -> Written:
+    """Program of a user function that is not a callable.
+
+    Raises
+    ------
+    Unwritten, TypeError, ValueError
+        If it has a function that the core does not know.
+    """
     key, equations, numbers = _equations(row, k)
-    if key is None or key not in _programs:
-        try:
-            made = _made(equations.graph, equations.results(row), len(numbers), k)
-        except (Unwritten, TypeError, ValueError):      # a function that has no counterpart in C
-            made = None
-        if key is None:
-            return made and (made[0], np.array([*numbers, *made[1]], dtype=float))
-        _programs[key] = made
-    found = _programs[key]
-    return found and (found[0], np.array([*numbers, *found[1]], dtype=float))
-
-
-def _made(graph: Any, results: Sequence[Any], numbers: int, k: int) -> tuple[Any, list[float]]:
-    lowering = Lowering(graph)
-    return program_writer.expressions(lowering, [lowering.lower(node) for node in results], numbers, k, k)
-
-
-def nodes_of(row: Any, k: int) -> tuple[Any, Any, list[float]]:
-    """Graph and nodes of a user function that is not a callable, and its numbers."""
-    key, equations, numbers = _equations(row, k)
-    if key is None:
-        return equations.graph, equations.results(row), numbers
-    if key not in _graphs:
-        _graphs[key] = equations.graph, equations.results(row)
-    return *_graphs[key], numbers
+    found = None if key is None else _programs.get(key)
+    nodes = () if found else equations.results(row)
+    first = len(numbers)
+    numbers += [0.0] * (len(equations.splines) or not numbers)      # there is one at least
+    if found is None:
+        lowering = Lowering(equations.graph)
+        found = program_writer.expressions(lowering, [lowering.lower(node) for node in nodes], len(numbers), k, k)
+        if key is not None:
+            _programs[key] = found
+    return Written(found, [*numbers, *found.literals], dict(enumerate(equations.splines, first)))
 
 
 def _equations(row: Any, k: int) -> tuple[Any, Any, list[float]]:
@@ -76,6 +85,7 @@ class _Equations:
         self.functions, self._template = reader, template
         self.graph = reader.graph
         own = [self.graph.leaf("parameter", i) for i in range(len(names) + numbers)]
+        self._size, self.splines = len(own), list[Any]()        # splines: those of which the numbers are the last ones
         self.parameters = dict(zip(names, own, strict=False))
         self._numbers = {_number(i): leaf for i, leaf in enumerate(own[len(names):])}
         self.leaves = Leaves(self.graph, k)
@@ -84,6 +94,11 @@ class _Equations:
     def read(self, what: str, expression: Any, known: Mapping[Any, Any]) -> Any:
         """Node of an expression."""
         return self.functions.read(what, self._template, {**known, **self._numbers})
+
+    def spline(self, table: Any) -> Any:
+        """Node of the number that stands for a table."""
+        self.splines.append(table)
+        return self.graph.leaf("parameter", self._size + len(self.splines) - 1)
 
     def difference(self, a: Any, b: Any) -> Any:
         """Node of a - b."""

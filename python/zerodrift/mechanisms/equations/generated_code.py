@@ -21,8 +21,8 @@ from typing import Any
 import numpy as np
 
 from ..._private import gateway
-from ..._private.gateway.compiled import programs
 from ..._private.gateway.compiled.precise import Precise
+from ..._private.gateway.compiled.programs import with_addresses
 from ..._private.gateway.mechanisms import space_plans
 from ..._private.gateway.mechanisms.compiled_terms import WrittenTerms, with_functions
 from ..._private.gateway.mechanisms.core import MechanismCore
@@ -90,13 +90,15 @@ class Written:
                  *, compiles: bool = True, has_inputs: bool = False) -> None:
         self._interpreted, self._sizes = core, (core.nq, core.nv, core.mh, core.mn)
         is_in_space = isinstance(core, SpaceCore)
-        self._has_terms = compiles and (not is_in_space or core.packing is None)
+        # Matrices of compiled mechanisms with tables are interpreted: then the end of a table is said.
+        self._has_terms = compiles and not laws.tables and (not is_in_space or core.packing is None)
         reader = _reader(laws)
         number = nodes.Numbering(reader.graph)
         room, planned = (space_nodes, space_plans.plan_of) if is_in_space else (nodes, plan_of)
         plan = room.with_nodes(planned(core), number)
-        self._index = {key: len(number.values) + i for i, key in enumerate(parameters)}
-        own = {key: number.new(value) for key, value in parameters.items()}
+        first, own = len(number.values), _own_numbers(number, parameters, laws)
+        self._index = {key: first + i for i, key in enumerate(own)}
+        self._splines = {self._index[table]: table for table in laws.tables}
         self._values, self._frames = np.array(number.values), room.frames_of(plan)
         self._inputs = range(len(number.values) - len(own), len(number.values)) if has_inputs else range(0)
         self.key = kept.digest_of(_writing_code(isinstance(reader, Plain)), repr(plan), repr(own), self._sizes,
@@ -150,7 +152,8 @@ class Written:
                   series: Any = None) -> MechanismCore | SpaceCore:
         """System with compiled functions."""
         code = self._code
-        numbers = np.concatenate([self._values, np.zeros(code.constants + (closed_form.constants if closed_form else 0) + 1)])
+        further = np.zeros(code.constants + (closed_form.constants if closed_form else 0) + 1)
+        numbers = np.concatenate([with_addresses(self._values, self._splines), further])
         libraries: list[Any] = [self._library]
         address = terms = None
         if self._library is not None:
@@ -164,7 +167,8 @@ class Written:
         numbers.flags.writeable = False
         rates = jacobian and gateway.address_of(jacobian, JacobianFunctions.symbol)
         coefficients = series and gateway.address_of(series, SeriesFunctions.symbol)
-        core = with_functions(self._interpreted, numbers, [*libraries, jacobian, series], terms=terms, closed_forms=address,
+        keep = [*libraries, jacobian, series, self._splines]
+        core = with_functions(self._interpreted, numbers, keep, terms=terms, closed_forms=address,
                               jacobian=rates, series=coefficients)
         derive = zip(libraries, ("zd_symbolic_constants", f"{CLOSED_FORM}_constants"), strict=False)
         core.written_inputs = WrittenInputs(numbers, self._index, [gateway.address_of(*each) for each in derive if each[0]])
@@ -197,16 +201,16 @@ class Written:
     def closed_form_functions(self, p0: np.ndarray | None, is_length: np.ndarray) -> ClosedFormFunctions:
         """Closed-form functions, with elimination orders for these numbers and the start p0."""
         return ClosedFormFunctions(self._code.program, self._sizes, self._values, p0, is_length,
-                               len(self._values) + self._code.constants, CLOSED_FORM_DATA, inputs=self._inputs)
+                               len(self._values) + self._code.constants, CLOSED_FORM_DATA, inputs=self._inputs,
+                               splines=self._splines)
 
-    def with_programs(self, closed_form: ClosedFormFunctions, embeds: bool) -> MechanismCore | SpaceCore:
+    def with_programs(self, closed_form: ClosedFormFunctions) -> MechanismCore | SpaceCore:
         """Core system with closed-form functions as programs, if there are any; otherwise the core system."""
-        found = closed_form.programs
+        found = closed_form.interpreted(with_addresses(self._values, self._splines))
         if found is None:
             return self.core
-        forms, keep = programs.closed_forms(*found, self._sizes, embeds)
-        numbers = programs.constants(found[0], self._values)
-        core = with_functions(self._interpreted, numbers, (forms, keep), closed_forms=forms)
+        forms, keep, numbers = found
+        core = with_functions(self._interpreted, numbers, (forms, keep, self._splines), closed_forms=forms)
         core.written_inputs = WrittenInputs(numbers, self._index, [])
         return core
 
@@ -234,6 +238,11 @@ def measure_program(tables: Tables, name: str) -> tuple[Any, list[int], np.ndarr
     lowering, frames = Lowering(reader.graph, equations.values), room.frames_of(plan)
     found = [lowering.lower(rate if measure.kind == "rates" else value) for value, rate in equations.readings[-measure.size:]]
     return lowering, found, _pairs(np.array(number.values), frames)
+
+
+def _own_numbers(number: nodes.Numbering, parameters: Mapping[str, float], laws: Laws) -> dict[Any, Any]:
+    """Nodes of the mechanism's parameters, and of the numbers that stand for tables."""
+    return {key: number.new(value) for key, value in {**parameters, **dict.fromkeys(laws.tables, 0.0)}.items()}
 
 
 def _pairs(values: np.ndarray, frames: Any) -> np.ndarray:
@@ -280,7 +289,7 @@ def _described(what: Any) -> Any:
     if isinstance(what, np.ndarray):
         return what.tolist()
     if isinstance(what, Mapping):
-        return [[key, _described(value)] for key, value in what.items() if key not in ("parameters", "what", "_call")]
+        return [[key, _described(value)] for key, value in what.items() if key not in ("parameters", "what", "_call", "_spline")]
     if isinstance(what, list | tuple):
         return [_described(each) for each in what]
     return [type(what).__name__, _described(vars(what))] if hasattr(what, "__dict__") else repr(what)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from ..._private.gateway.mechanisms.element_tables import Relation
@@ -21,12 +21,19 @@ class Relations:
     laws : Laws
     t : Node
         Time.
+    parameters : dict of Node
+        By name, and numbers that stand for tables.
     """
 
     graph: Graph
     readings: Sequence[Any]
     laws: Laws
     t: Node
+    parameters: Mapping[Any, Node]
+
+    def spline(self, table: Any) -> Node:
+        """Node of the number that stands for a table."""
+        return self.parameters[table]
 
     def difference(self, a: Node, b: Node) -> Node:
         return self.graph.plus(a, self.graph.minus(b))

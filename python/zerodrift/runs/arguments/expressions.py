@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..._private import gateway
+from ..._private.gateway.compiled import programs
 from ..._private.gateway.known_events import NUMBER, TIME, VELOCITY, Reading
 from ...errors import WrongValue
 from ...symbolics.elimination.steps import Unwritten
@@ -87,9 +88,10 @@ def program(what: str, of: Read) -> tuple[tuple[Any, Any], list[Reading]] | None
         node = reader.read(what, of.expression, {atom: reader.graph.leaf("parameter", i) for i, atom in enumerate(of.atoms)})
         lowering = Lowering(reader.graph)
         try:
-            _programs[key] = program_writer.expressions(lowering, [lowering.lower(node)], len(of.atoms))
+            written = program_writer.expressions(lowering, [lowering.lower(node)], len(of.atoms))
         except Unwritten:
             return None
+        _programs[key] = programs.expressions(written), written.literals
     found, literals = _programs[key]
     return found, [*of.readings, *(Reading(NUMBER, number=each) for each in literals)]
 

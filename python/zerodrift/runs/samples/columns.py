@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..._private.gateway import Variable
+from ..._private.types import Names
 from ..._private.writing import write_atomically
 from ...errors import MissingPackage
 from ...systems.measure_values import component_names
@@ -47,7 +48,7 @@ def unit_of(solution: Any, name: str) -> str:
     return solution.system._unit_of_measure(name)
 
 
-def to_csv(self: Any, path: str | Path, names: Any = None) -> Path:
+def to_csv(self: Any, path: str | Path, names: Names | None = None) -> Path:
     """Write columns to a CSV file: the time, and what is named, a component each, with names and units in the first line.
 
     Parameters
@@ -87,7 +88,7 @@ def to_csv(self: Any, path: str | Path, names: Any = None) -> Path:
     return path
 
 
-def to_excel(self: Any, path: str | Path, names: Any = None) -> Path:
+def to_excel(self: Any, path: str | Path, names: Names | None = None) -> Path:
     """Write the same to an Excel file; pandas and openpyxl have to be installed: ``pip install 'zerodrift[excel]'``.
 
     Parameters

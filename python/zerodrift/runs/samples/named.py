@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..._private import gateway
-from ..._private.types import MeasureLike
+from ..._private.types import Body, MeasureLike
 from ...errors import WrongName
 from ...systems.base import BaseSystem
 from ...systems.measure_values import AXES, view
@@ -95,7 +95,7 @@ class Named:
         values = list(self.outputs.values())[place.number]
         return place.pick(values) if values.ndim > 1 < values.shape[1] else values
 
-    def unique(self, name: MeasureLike, body: Any = None) -> Any:
+    def unique(self, name: MeasureLike, body: str | Body | None = None) -> Any:
         """Return whether a measure of a mechanism is determined uniquely, although constraints are redundant.
 
         With redundant constraints, the motion of rigid bodies does not determine all reactions. The least ones are reported then:

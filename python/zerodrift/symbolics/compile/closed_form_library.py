@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache, cached_property
 from importlib import metadata
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
 from ..._private.gateway import VERSION
+from ..._private.gateway.compiled.programs import closed_forms, constants, with_addresses
 from ..elimination.steps import Order, Solve
 from ..emit.program_writer import Part, Programs
 from ..graph.plain_functions import NAMED
@@ -32,7 +34,8 @@ class ClosedFormFunctions:
 
     def __init__(self, program: Any, sizes: tuple[int, int, int, int], values: np.ndarray,
                  p0: np.ndarray | None, is_length: np.ndarray, offset: int, data: str = "data", embeds: bool = False,
-                 inputs: Sequence[int] = ()) -> None:
+                 inputs: Sequence[int] = (), splines: Mapping[int, Any] = MappingProxyType({})) -> None:
+        self._splines = dict(splines)       # tables by the places of the values that stand for them
         self._inputs = inputs       # parameters that change within a run: programs compute what depends on them
         self._definition = program, sizes, values, p0, is_length
         self._embeds = embeds       # True: for formulations in independent velocities
@@ -44,10 +47,17 @@ class ClosedFormFunctions:
         self._is_written = bool(self.why_none)
 
     @property
+    def _given(self) -> tuple[Any, ...]:
+        """The definition with numbers that stand for tables."""
+        program, sizes, values, *others = self._definition
+        return program, sizes, with_addresses(values, self._splines), *others
+
+    @property
     def embedding(self) -> ClosedFormFunctions:
         """Closed-form functions for formulations in independent velocities."""
         if self._others is None:
-            self._others = ClosedFormFunctions(*self._definition, self._offset, self._data, embeds=True, inputs=self._inputs)
+            self._others = ClosedFormFunctions(*self._definition, self._offset, self._data, embeds=True, inputs=self._inputs,
+                                              splines=self._splines)
         return self._others
 
     def prepare(self) -> None:
@@ -84,10 +94,15 @@ class ClosedFormFunctions:
         functions = [{name: [Part(*part) for part in parts] for name, parts in of.items()} for of in written.functions]
         return written._replace(functions=functions), [tuple(Solve(*each) for each in order) for order in found["orders"]]
 
+    def interpreted(self, values: np.ndarray) -> tuple[Any, Any, np.ndarray] | None:
+        """Functions by programs, what they refer to, and the numbers that they read, parameters first; None: there are none."""
+        found, sizes = self.programs, self._definition[1]
+        return found and (*closed_forms(*found, sizes, self._embeds), constants(found[0], values))
+
     def _programs_anew(self) -> dict[str, Any]:
         from ..elimination.steps import Unwritten
         from ..emit import closed_form, program_writer
-        program, sizes, values, p0, is_length = self._definition
+        program, sizes, values, p0, is_length = self._given
         try:
             lowering, functions, eliminations = closed_form.eliminated(program, sizes, values, p0, is_length, (self._embeds,))
             written = program_writer.programs(lowering, functions, sizes, len(values), self._inputs)
@@ -104,13 +119,13 @@ class ClosedFormFunctions:
         limits = closed_form_writer.MAX_OPERATIONS, closed_form_writer.MAX_STATEMENTS
         return kept.digest_of(what, _writing_code(calls <= set(NAMED)), limits, program, sizes, values.tolist(),
                               None if p0 is None else p0.tolist(), is_length.tolist(), self._offset, self._data, self._embeds,
-                              [*self._inputs])
+                              [*self._inputs], {place: table.knots.tolist() for place, table in self._splines.items()})
 
     def _written_anew(self) -> dict[str, Any]:
         from ..elimination.steps import Unwritten
         from ..emit import closed_form
         try:
-            source, constants = closed_form.write(*self._definition, offset=self._offset, symbol=CLOSED_FORM, data=self._data,
+            source, constants = closed_form.write(*self._given, offset=self._offset, symbol=CLOSED_FORM, data=self._data,
                                              embeds=(self._embeds,))
         except Unwritten as reason:
             return {"source": "", "constants": 0, "why": str(reason)}

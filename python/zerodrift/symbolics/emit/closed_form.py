@@ -18,7 +18,8 @@ from .closed_form_writer import Bounded
 from .writers import mathematics
 
 TERMS = ("A", "M", "d", "f", "Phi", "C", "Phi_t", "xi", "power")    # those that they follow from
-HEADING = ["/* Written by zerodrift.symbolic. */", "#include <zerodrift/system.h>", "#include <zerodrift/units.h>"]
+HEADING = ["/* Written by zerodrift.symbolic. */", "#include <zerodrift/sines.h>", "#include <zerodrift/system.h>",
+           "#include <zerodrift/units.h>"]
 VERSION = ["", "const int zd_interface_version = ZD_INTERFACE_VERSION;"]
 
 

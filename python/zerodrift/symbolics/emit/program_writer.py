@@ -16,12 +16,14 @@ from ..._private.gateway.compiled import programs as compiled_programs
 from ..._private.gateway.compiled.programs import END, FRAME, MINUS_TIMES, SINES, SINES_AT_ONCE, TIMES_MINUS, TIMES_PLUS
 from ..._private.gateway.mechanisms.blocks import FUNCTIONS, OPERATIONS
 from ..elimination.steps import Unwritten
+from ..graph.blocks import Blocks
 from ..graph.graph import FIXED
 from ..graph.lowering import Lowering
 from .closed_form_writer import Program
 from .lane_writer import products_in_sums
 from .writers import count_uses, turn_of
 
+MAX_PLACES = 2**16
 MAX_OPERATIONS = 2000       # of a function: with more of them, matrices take less time
 PARTS = ("Phi",), ("dp",), ("dv",), ("pdot", "vdot"), ("lambda", "power"), ("pivots", "D")   # as in enum zd_found
 LEFT_OUT = 1, 4, 5          # parts that a call may leave out, so that the others cannot rely on them
@@ -126,8 +128,61 @@ def _parts(lowering: Lowering, outputs: dict[str, list[int]], constants: dict[in
     return found
 
 
-def expressions(lowering: Lowering, results: list[int], numbers: int, terms: int = 0, rates: int = 0) -> tuple[Any, list[float]]:
-    """A `zd_expressions` of so many parameters, t, and entries of p and v, with what it refers to; and the numbers that follow.
+class Expressions(NamedTuple):
+    """Program of expressions: numbers that follow those given, instructions, and the places of the results."""
+
+    literals: list[float]
+    instructions: list[Instruction]
+    results: list[int]
+    numbers: int                # those given, and these
+    terms: int
+    rates: int
+    frame: int                  # values
+
+
+class Terms(NamedTuple):
+    """Programs of the terms of a system: csrc/laws/terms.h.
+
+    Attributes
+    ----------
+    literals : list of float
+        Numbers that follow the parameters.
+    groups : list of tuple
+        Terms of which one must be wanted, the place of the first value, and instructions.
+    results : dict
+        Places of the entries of each term.
+    frame : int
+        Values.
+    """
+
+    literals: list[float]
+    groups: list[tuple[list[str], int, list[Instruction]]]
+    results: dict[str, list[int]]
+    frame: int
+
+
+def terms(blocks: Blocks, parameters: int, nq: int, nv: int) -> Terms:
+    """Programs of terms of p and v.
+
+    Raises
+    ------
+    Unwritten
+        If they would be too long, or have a function that the core does not know.
+    """
+    literals, writer = _begun(Program(blocks.lowering, blocks.outputs, {}), parameters, nq, nv)
+    groups = []
+    for terms, operations in [(list(blocks.outputs), blocks.constants), *(
+            (sorted(block.terms), block.operations) for block in [*blocks.kept, *blocks.shared, *blocks.own])]:
+        part = writer.part([], operations)
+        groups.append((terms, part.first, part.instructions))
+    if writer.place > MAX_PLACES:
+        raise Unwritten(f"they would take more than {MAX_PLACES} values")
+    return Terms(literals, groups, {name: [writer.places[number] for number in numbers]
+                                    for name, numbers in blocks.outputs.items()}, writer.place)
+
+
+def expressions(lowering: Lowering, results: list[int], numbers: int, terms: int = 0, rates: int = 0) -> Expressions:
+    """Program of expressions of so many parameters, t, and entries of p and v, as csrc/laws/program.h has them.
 
     Raises
     ------
@@ -135,27 +190,33 @@ def expressions(lowering: Lowering, results: list[int], numbers: int, terms: int
         If it would be too long, or has a function that the core does not know.
     """
     program = Program(lowering, {"results": results}, {})
-    used = [(number, *operation[:2]) for number, operation in enumerate(lowering.operations) if program.users[number]]
-    literals = {number: arguments[0] for number, code, arguments in used if code == "number"}
-    t = numbers + len(literals)
-    begin = {"parameter": 0, "t": t, "p": t + 1, "v": t + 1 + terms}
-    places = {number: begin[arguments[0]] + arguments[1] for number, code, arguments in used if code == "leaf"}
-    places |= {number: numbers + i for i, number in enumerate(literals)}
-    writer = _Writer(program, places, t + 1 + terms + rates)
+    literals, writer = _begun(program, numbers, terms, rates)
     part = writer.part(results, program.needed(["results"]))
     if writer.place > FRAME:
         raise Unwritten(f"it would take more than {FRAME} values")
-    return compiled_programs.expressions(part, t, terms, rates, writer.place), [*literals.values()]
+    return Expressions(literals, part.instructions, part.results, numbers + len(literals), terms, rates, writer.place)
+
+
+def _begun(program: Program, numbers: int, nq: int, nv: int) -> tuple[list[float], _Writer]:
+    """Literals of a frame with so many numbers before them, then t, p and v, and the writer of what follows."""
+    used = [(number, *operation[:2]) for number, operation in enumerate(program.lowering.operations) if program.users[number]]
+    literals = {number: arguments[0] for number, code, arguments in used if code == "number"}
+    t = numbers + len(literals)
+    begin = {"parameter": 0, "t": t, "p": t + 1, "v": t + 1 + nq}
+    places = {number: begin[arguments[0]] + arguments[1] for number, code, arguments in used if code == "leaf"}
+    places |= {number: numbers + i for i, number in enumerate(literals)}
+    return [*literals.values()], _Writer(program, places, t + 1 + nq + nv)
 
 
 def evaluator(lowering: Lowering, outputs: Mapping[Any, list[int]], parameters: np.ndarray,
               nq: int) -> Callable[[np.ndarray, np.ndarray], dict[str, np.ndarray]]:
     """A function of t (k,) and p (k, nq) that gives (k, size) of each output, which depends on no velocity."""
-    program, literals = expressions(lowering, [number for numbers in outputs.values() for number in numbers], len(parameters), nq)
+    written = expressions(lowering, [number for numbers in outputs.values() for number in numbers], len(parameters), nq)
+    program = compiled_programs.expressions(written)
     ends = np.cumsum([len(numbers) for numbers in outputs.values()])
 
     def evaluate(t: np.ndarray, p: np.ndarray) -> dict[str, np.ndarray]:
-        found = compiled_programs.reader(program, [*parameters, *literals], t, p, t[:0])()
+        found = compiled_programs.reader(program, [*parameters, *written.literals], t, p, t[:0])()
         return dict(zip(outputs, np.split(found, ends[:-1], axis=1), strict=True))
 
     return evaluate
@@ -165,10 +226,10 @@ def reader(lowering: Lowering, results: list[int], parameters: np.ndarray, t: np
            v: np.ndarray) -> Callable[[], np.ndarray] | None:
     """Function that returns values (k, results) at the present t (k,), p (k, nq) and v (k, nv); None: there is no program."""
     try:
-        program, literals = expressions(lowering, results, len(parameters), p.shape[1], v.shape[1])
+        written = expressions(lowering, results, len(parameters), p.shape[1], v.shape[1])
     except Unwritten:
         return None
-    return compiled_programs.reader(program, [*parameters[:, 0], *literals], t, p, v)
+    return compiled_programs.reader(compiled_programs.expressions(written), [*parameters[:, 0], *written.literals], t, p, v)
 
 
 class _Writer:

@@ -1,4 +1,4 @@
-"""Programs as C in the core's interface, and as Python for where there is no compiler."""
+"""Programs as C in the core's interface."""
 
 from __future__ import annotations
 
@@ -10,102 +10,14 @@ from typing import Any
 
 from ..._private.gateway import TERMS
 from ..graph.lowering import Operation
-from ..graph.plain_functions import Function
+from ..graph.plain_functions import SPLINE, Function
 
 MANY = 16           # entries that are zero
 LONGEST = 100       # characters of an expression that is written in place
-MATH = "#include <math.h>"
+MATH, WITH_SPLINE = "#include <math.h>", "#include <zerodrift/spline.h>"      # which has the former
 # Which takes a compiler as long as a tenth of a small system: of most systems these are all that is needed of it.
 WITHOUT_MATH = "double fabs(double), sqrt(double);"
 TURNS = {"sin": "sine", "cos": "cosine"}    # what the core has functions of its own for, and its array of them
-
-
-class Writer:
-    """Base of writers: operations of a program as expressions of one language."""
-
-    prefix = ""                     # prefix of the names of `Function` calls
-    language = end = ""             # the name of its printer; the end of a statement
-    state = case = ""               # patterns: of an entry of p or v, and of one of several cases
-    words: dict[str, str] = {}      # what is called otherwise than in `Operation`
-
-    number: Any                     # function: text of a number
-
-    def __init__(self, blocks: Any) -> None:
-        """Program of a schedule, `Blocks`, or of one function."""
-        self.blocks, self.operations = blocks, blocks.lowering.operations
-        self.names: dict[int, str] = {}
-        self.turned: dict[int, str] = {}        # sines and cosines that are computed already, and what they are called
-        self._uses = count_uses(blocks)
-
-    def value(self, number: int) -> str:
-        """C or Python text of an operation's value: its name, or its expression if it is used only once."""
-        operation = self.operations[number]
-        if operation.code == "leaf":
-            return self.leaf(*operation.arguments)
-        if operation.code == "number":
-            return self.number(operation.arguments[0])
-        return self.names[number]
-
-    def statements(self, numbers: list[int], name: Callable[[int], str], declare: str) -> list[str]:
-        """Assignments of the operations of a block that are not written in place."""
-        lines: list[str] = []
-        for number in self.ordered(numbers, lines):
-            text = self.turned.get(number) or self.expression(self.operations[number])
-            stored = number in self.blocks.stored
-            in_place = bool(declare) if number in self.turned else self._uses[number] == 1     # arrays end with their block
-            if in_place and not stored and len(text) < LONGEST:
-                self.names[number] = text
-                continue
-            self.names[number] = name(number)
-            lines.append(f"{'' if stored else declare}{self.names[number]} = {unwrapped(text)}{self.end}")
-        return lines
-
-    def ordered(self, numbers: list[int], lines: list[str]) -> Iterable[int]:
-        """The operations of a block in the order in which they are written; `lines` may be added to before each."""
-        return numbers
-
-    def expression(self, operation: Operation) -> str:
-        """An operation as an expression, in parentheses where these may be needed."""
-        code, arguments = operation.code, operation.arguments
-        if code == "call":
-            return self.call(arguments[0], [unwrapped(self.value(argument)) for argument in arguments[1:]])
-        if code == "comparison":
-            return f"({self.value(arguments[1])} {arguments[0]} {self.value(arguments[2])})"
-        if code == "logic":
-            return self.logic(arguments[0], [self.value(argument) for argument in arguments[1:]])
-        values = [self.value(argument) for argument in arguments]
-        if code == "choice":
-            return self.choice(list(zip(values[:-1:2], values[1:-1:2], strict=True)), values[-1])
-        if code in "+-*/":
-            return self.binary(code, *values)
-        return {"negative": f"(-{values[0]})"}.get(code) or self.named(code, *map(unwrapped, values))
-
-    def leaf(self, kind: str, index: int) -> str:
-        return {"parameter": f"k[{index}]", "t": "t"}.get(kind, self.state.format(kind=kind, index=index))
-
-    def binary(self, sign: str, a: str, b: str) -> str:
-        return f"({a} {sign} {b})"
-
-    def named(self, code: str, *values: str) -> str:
-        return f"{self.words.get(code, code)}({', '.join(values)})"
-
-    def choice(self, cases: list[tuple[str, str]], otherwise: str) -> str:
-        before = "".join(self.case.format(condition=condition, value=value) for condition, value in cases)
-        return f"({before}{otherwise})"
-
-    def logic(self, word: str, parts: list[str]) -> str:
-        said = self.words.get(word, word)
-        return f"({said}{parts[0]})" if word == "not" else f"({f' {said} '.join(parts)})"
-
-    def call(self, function: Any, values: list[str]) -> str:
-        """Function call, printed by SymPy; its arguments are names and expressions of this writer."""
-        if function.__name__ == "Pow":
-            return self.named("power", *values)
-        if isinstance(function, Function):
-            return f"{self.prefix}{function.__name__}({', '.join(values)})"
-        from sympy import Symbol
-
-        return _printer(self.language).doprint(function(*(Symbol(value, real=True) for value in values), evaluate=False))
 
 
 def count_uses(program: Any) -> list[int]:
@@ -133,16 +45,16 @@ def mathematics(operations: Iterable[Operation]) -> str:
         code, (first, *_) = operation.code, operation.arguments
         return code == "power" or (code == "call" and not turn_of(first)) or (code == "number" and not math.isfinite(first))
 
-    return MATH if any(map(is_called, operations)) else WITHOUT_MATH
+    has_spline = any(operation.code == "call" and operation.arguments[0] is SPLINE for operation in operations)
+    return WITH_SPLINE if has_spline else MATH if any(map(is_called, operations)) else WITHOUT_MATH
 
 
 @cache
-def _printer(language: str) -> Any:
-    """SymPy's printer of a language: only functions of expressions need it."""
+def _printer() -> Any:
+    """SymPy's printer of C: only functions of expressions need it."""
     from sympy.printing.c import C99CodePrinter
-    from sympy.printing.pycode import PythonCodePrinter
 
-    return (C99CodePrinter if language == "C" else PythonCodePrinter)({"strict": False})
+    return C99CodePrinter({"strict": False})
 
 
 def unwrapped(text: str) -> str:
@@ -157,14 +69,85 @@ def unwrapped(text: str) -> str:
     return text
 
 
-class CWriter(Writer):
+class CWriter:
     """C99, one function in the core's interface, with the core's own sines."""
 
-    language, end = "C", ";"
-    state, case = "{kind}{index}", "{condition} ? {value} : "
     words = {"and": "&&", "or": "||", "not": "!", "root": "sqrt", "power": "pow"}
     turns = ("const double angle{0}[{1}] = {{{2}}};", "double sine{0}[{1}], cosine{0}[{1}];",
              "zd_sines({1}, angle{0}, sine{0}, cosine{0});")
+
+    def __init__(self, blocks: Any) -> None:
+        """Program of a schedule, `Blocks`, or of one function."""
+        self.blocks, self.operations = blocks, blocks.lowering.operations
+        self.names: dict[int, str] = {}
+        self.turned: dict[int, str] = {}        # sines and cosines that are computed already, and what they are called
+        self._uses = count_uses(blocks)
+
+    def value(self, number: int) -> str:
+        """C of an operation's value: its name, or its expression if it is used only once."""
+        operation = self.operations[number]
+        if operation.code == "leaf":
+            return self.leaf(*operation.arguments)
+        if operation.code == "number":
+            return self.number(operation.arguments[0])
+        return self.names[number]
+
+    def statements(self, numbers: list[int], name: Callable[[int], str], declare: str) -> list[str]:
+        """Assignments of the operations of a block that are not written in place."""
+        lines: list[str] = []
+        for number in self.ordered(numbers, lines):
+            text = self.turned.get(number) or self.expression(self.operations[number])
+            stored = number in self.blocks.stored
+            in_place = bool(declare) if number in self.turned else self._uses[number] == 1     # arrays end with their block
+            if in_place and not stored and len(text) < LONGEST:
+                self.names[number] = text
+                continue
+            self.names[number] = name(number)
+            lines.append(f"{'' if stored else declare}{self.names[number]} = {unwrapped(text)};")
+        return lines
+
+    def expression(self, operation: Operation) -> str:
+        """An operation as an expression, in parentheses where these may be needed."""
+        code, arguments = operation.code, operation.arguments
+        if code == "call":
+            return self.call(arguments[0], [unwrapped(self.value(argument)) for argument in arguments[1:]])
+        if code == "comparison":
+            return f"({self.value(arguments[1])} {arguments[0]} {self.value(arguments[2])})"
+        if code == "logic":
+            return self.logic(arguments[0], [self.value(argument) for argument in arguments[1:]])
+        values = [self.value(argument) for argument in arguments]
+        if code == "choice":
+            return self.choice(list(zip(values[:-1:2], values[1:-1:2], strict=True)), values[-1])
+        if code in "+-*/":
+            return self.binary(code, *values)
+        return {"negative": f"(-{values[0]})"}.get(code) or self.named(code, *map(unwrapped, values))
+
+    def leaf(self, kind: str, index: int) -> str:
+        return {"parameter": f"k[{index}]", "t": "t"}.get(kind, f"{kind}{index}")
+
+    def binary(self, sign: str, a: str, b: str) -> str:
+        return f"({a} {sign} {b})"
+
+    def named(self, code: str, *values: str) -> str:
+        return f"{self.words.get(code, code)}({', '.join(values)})"
+
+    def choice(self, cases: list[tuple[str, str]], otherwise: str) -> str:
+        before = "".join(f"{condition} ? {value} : " for condition, value in cases)
+        return f"({before}{otherwise})"
+
+    def logic(self, word: str, parts: list[str]) -> str:
+        said = self.words.get(word, word)
+        return f"({said}{parts[0]})" if word == "not" else f"({f' {said} '.join(parts)})"
+
+    def call(self, function: Any, values: list[str]) -> str:
+        """Function call, printed by SymPy; its arguments are names and expressions of this writer."""
+        if function.__name__ == "Pow":
+            return self.named("power", *values)
+        if isinstance(function, Function):
+            return f"{function.__name__}({', '.join(values)})"
+        from sympy import Symbol
+
+        return _printer().doprint(function(*(Symbol(value, real=True) for value in values), evaluate=False))
 
     def ordered(self, numbers: list[int], lines: list[str]) -> Iterable[int]:
         """Operations of a block in order; sines and cosines are postponed until needed and then computed together."""
@@ -306,34 +289,3 @@ def indented(lines: list[str]) -> list[str]:
 def comment(text: str) -> str:
     """A line that cannot end the comment it stands in."""
     return json.dumps(text)[1:-1].replace("*/", "* /").replace("/*", "/ *")
-
-
-class PythonWriter(Writer):
-    """Python with floats, one function that fills arrays; its sines are those of `math`, which may differ in the last bit."""
-
-    language, end, prefix = "Python", "", "math."
-    state, case = "{kind}[{index}]", "{value} if {condition} else "
-    words = {"not": "not "}
-
-    def number(self, value: float) -> str:
-        return f"({value!r})" if math.isfinite(value) else f"float('{value}')"
-
-    def call(self, function: Any, values: list[str]) -> str:
-        text = super().call(function, values)
-        return f"missing({function.__name__!r})" if "Not supported" in text else text
-
-    def binary(self, sign: str, a: str, b: str) -> str:
-        return f"divide({a}, {b})" if sign == "/" else super().binary(sign, a, b)
-
-    def source(self) -> str:
-        """The Python source: `evaluate(want, t, p, v, k, out)`, `want` being the names of the terms."""
-        lines = self.statements(self.blocks.constants, "x{}".format, "")
-        for block in [*self.blocks.kept, *self.blocks.shared]:
-            lines += [f"if not want.isdisjoint({sorted(block.terms)!r}):",
-                      *indented(self.statements(block.operations, "x{}".format, "") or ["pass"])]
-        for term, numbers in self.blocks.outputs.items():
-            own = self.statements([number for block in self.blocks.own if block.terms == {term} for number in block.operations],
-                                  "x{}".format, "")
-            entries = [f"out[{term!r}][{i}] = {unwrapped(self.value(number))}" for i, number in enumerate(numbers)]
-            lines += [f"if {term!r} in want:", *indented(own + entries)]
-        return "\n".join(["def evaluate(want, t, p, v, k, out):", *indented(lines or ["pass"]), ""])

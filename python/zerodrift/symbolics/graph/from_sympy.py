@@ -13,6 +13,7 @@ from sympy.logic.boolalg import BooleanFunction
 
 from ...errors import WrongType, WrongValue
 from .graph import Graph, Node
+from .plain_functions import SPLINE, slope_of_spline
 from .sympy_functions import REWRITTEN, STEPS, TOTAL, WITHIN, computable
 
 SIGNS = {sympy.StrictLessThan: "<", sympy.LessThan: "<=", sympy.StrictGreaterThan: ">", sympy.GreaterThan: ">=",
@@ -53,6 +54,8 @@ class Reader:
 
     def _slope(self, function: Any, k: int, arguments: tuple[Node, ...]) -> Node:
         """The partial derivative of function(*arguments) by its k-th argument."""
+        if function is SPLINE:
+            return slope_of_spline(self.graph, k, arguments)
         key = function, k, len(arguments)
         if key not in self._slopes:
             dummies = [sympy.Dummy(f"argument {i}", real=True) for i in range(len(arguments))]

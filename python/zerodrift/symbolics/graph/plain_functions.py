@@ -12,7 +12,7 @@ from .graph import Graph, Node
 
 
 class Function:
-    """Function that a node calls; it has SymPy's name."""
+    """Function that a node calls; it has SymPy's name, or that of a function in C."""
 
     def __init__(self, name: str) -> None:
         self.__name__ = name
@@ -22,7 +22,14 @@ class Function:
 
 
 SIN, COS, FLOOR, ATAN2 = FUNCTIONS = Function("sin"), Function("cos"), Function("floor"), Function("atan2")
-NAMED = {function.__name__: function for function in FUNCTIONS}
+SPLINE = Function("zd_spline_at")       # of its address, the argument, and the order of the derivative
+NAMED = {function.__name__: function for function in (*FUNCTIONS, SPLINE)}
+
+
+def slope_of_spline(graph: Graph, k: int, arguments: tuple[Node, ...]) -> Node:
+    """Partial derivative of a call of `SPLINE`."""
+    spline, x, order = arguments
+    return graph.call(SPLINE, spline, x, graph.plus(order, graph.one)) if k == 1 else graph.zero
 
 
 class Plain:
@@ -49,6 +56,8 @@ class Plain:
             y, x = arguments
             size = graph.plus(graph.product([(x, 2)]), graph.product([(y, 2)]))
             return graph.product([(graph.minus(y) if k else x, 1), (size, -1)])
+        if function is SPLINE:
+            return slope_of_spline(graph, k, arguments)
         if function is SIN:
             return graph.call(COS, *arguments)
         return graph.minus(graph.call(SIN, *arguments)) if function is COS else graph.zero      # between jumps

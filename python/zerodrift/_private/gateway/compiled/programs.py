@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import copy
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from ...core import ffi, lib
-from ..base import doubles
+from ..base import TERMS, Variable, doubles
+from .native import NativeCore
 
 END, SINES, SINES_AT_ONCE, FRAME = lib.ZD_CODE_END, lib.ZD_CODE_SINES, lib.ZD_SINES_AT_ONCE, lib.ZD_FRAME
 TIMES_PLUS, TIMES_MINUS, MINUS_TIMES = lib.ZD_CODE_TIMES_PLUS, lib.ZD_CODE_TIMES_MINUS, lib.ZD_CODE_MINUS_TIMES
@@ -45,10 +47,11 @@ def closed_forms(programs: Any, orders: Sequence[Any], sizes: tuple[int, int, in
     return ffi.new("zd_closed_form[]", rows), keep
 
 
-def expressions(part: Any, numbers: int, terms: int, rates: int, frame: int) -> tuple[Any, Any]:
-    """A `zd_expressions`, and what it refers to."""
-    instructions, results = _instructions(part.instructions), ffi.new("uint16_t[]", part.results)
-    made = ffi.new("zd_expressions *", (instructions, numbers, terms, rates, len(part.results), frame, results))
+def expressions(written: Any) -> tuple[Any, Any]:
+    """A `zd_expressions`, as `symbolics.emit.program_writer.expressions` writes it, and what it refers to."""
+    instructions, results = _instructions(written.instructions), ffi.new("uint16_t[]", written.results)
+    made = ffi.new("zd_expressions *", (instructions, written.numbers, written.terms, written.rates, len(written.results),
+                                        written.frame, results))
     return made, (instructions, results)
 
 
@@ -63,6 +66,72 @@ def reader(program: tuple[Any, Any], numbers: Sequence[float], *states: np.ndarr
         return out
 
     return read
+
+
+class ProgrammedCore(NativeCore):
+    """A system whose terms are programs, as `symbolics.emit.program_writer.terms` writes them, of parameters in `numbers`."""
+
+    def __init__(self, written: Any, numbers: np.ndarray, sizes: tuple[int, int, int, int], variables: Iterable[Variable],
+                 **further: Any) -> None:
+        groups, results, keep = [], [], []
+        for terms, first, instructions in written.groups:
+            keep.append(_instructions(instructions))
+            groups.append((sum(TERMS[name].bit for name in terms), first, keep[-1]))
+        for name, places in written.results.items():
+            keep.append(ffi.new("uint16_t[]", places))
+            results.append((TERMS[name].bit, TERMS[name].offset, len(places), keep[-1]))
+        literals, group, term = (ffi.new(f"{kind}[]", each) for kind, each in (
+            ("double", written.literals), ("zd_term_group", groups), ("zd_term_results", results)))
+        programs = ffi.new("zd_term_programs *", (len(numbers), len(literals), *sizes[:2], len(groups), len(results), literals,
+                                                  group, term))
+        address = int(ffi.cast("intptr_t", ffi.addressof(lib, "zd_terms_by_programs")))
+        super().__init__(sizes, written.results, address, None, variables, scratch=written.frame,
+                         keep=(keep, literals, group, term, programs), **further)
+        self._programs = programs
+        self._read(numbers)
+
+    def _read(self, numbers: np.ndarray) -> None:
+        """Sets the numbers that functions read, parameters first."""
+        self.numbers, self._memory = numbers, doubles(numbers, numbers.size)
+        self._given = ffi.new("zd_programmed *", (self._memory, self._programs))
+        self.c.data = self._given
+
+    def with_numbers(self, numbers: np.ndarray) -> ProgrammedCore:
+        """Copy of the system with other numbers."""
+        other = copy.copy(self)
+        other.c = ffi.new("zd_system *", self.c[0])
+        other._read(numbers)
+        return other
+
+    def with_closed_forms(self, forms: Any, keep: Any, numbers: np.ndarray) -> ProgrammedCore:
+        """Copy of the system with closed-form functions, a `zd_closed_form[]`, and the numbers that these read."""
+        other = self.with_numbers(numbers)
+        other.c.closed_form, other.c.closed_forms = forms, len(forms)
+        other._data = (*self._data, forms, keep)
+        return other
+
+    @property
+    def lane_numbers(self) -> Any:
+        return self._memory if self.has_closed_form else None
+
+
+def spline(knots: np.ndarray) -> Any:
+    """A `zd_spline` of knots (n, 5), and what it refers to."""
+    numbers = doubles(np.ravel(knots), knots.size)
+    return ffi.new("zd_spline *", (len(knots), numbers)), numbers
+
+
+def address(spline: Any) -> float:
+    """The number that stands for a spline in a program."""
+    return float(int(ffi.cast("uintptr_t", spline[0])))
+
+
+def with_addresses(numbers: np.ndarray, tables: Mapping[int, Any]) -> np.ndarray:
+    """Copy of numbers with those that stand for tables, given by their places."""
+    found = np.array(numbers, dtype=float)
+    for place, each in tables.items():
+        found[place] = each.address
+    return found
 
 
 def _described(functions: Any, order: Any, constants: int, sizes: tuple[int, int, int, int], keep: list[Any]) -> tuple[Any, bool]:

@@ -15,21 +15,20 @@ from ..systems import CoreSystem
 from . import plane, space
 
 SECTIONS = ("gravity", "bodies", "joints", "quantities", "terms", "relations", "forces", "measures", "laws", "instructions",
-            "splines", "knots", "start", "outputs", "inputs", "settings", "methods", "names", "parameters", "effects", "products",
-            "texts")
+            "results", "numbers", "splines", "knots", "start", "outputs", "inputs", "settings", "methods", "names", "parameters",
+            "effects", "products", "texts")
 VERSION = lib.ZD_BLOCK_VERSION
 # by the names of operations in `symbolics.graph.lowering`, and of functions
 OPERATIONS = {"+": lib.ZD_CODE_PLUS, "-": lib.ZD_CODE_MINUS, "*": lib.ZD_CODE_TIMES, "/": lib.ZD_CODE_OVER,
               "negative": lib.ZD_CODE_NEGATIVE, "root": lib.ZD_CODE_ROOT, "power": lib.ZD_CODE_POWER, "<": lib.ZD_CODE_LESS,
               "<=": lib.ZD_CODE_LESS_EQUAL, ">": lib.ZD_CODE_GREATER, ">=": lib.ZD_CODE_GREATER_EQUAL, "==": lib.ZD_CODE_EQUAL,
               "!=": lib.ZD_CODE_UNEQUAL, "and": lib.ZD_CODE_AND, "or": lib.ZD_CODE_OR, "not": lib.ZD_CODE_NOT,
-              "choose": lib.ZD_CODE_CHOOSE, "spline": lib.ZD_CODE_SPLINE, "number": lib.ZD_CODE_NUMBER, "t": lib.ZD_CODE_TIME,
-              "input": lib.ZD_CODE_INPUT,
-              "p": lib.ZD_CODE_X, "v": lib.ZD_CODE_XDOT, "result": lib.ZD_CODE_RESULT}
+              "choose": lib.ZD_CODE_CHOOSE}
 FUNCTIONS = {name: getattr(lib, f"ZD_CODE_{code or name.upper()}") for name, code in {
-    "Pow": "POWER", "sin": "", "cos": "", "tan": "", "asin": "", "acos": "", "atan": "", "atan2": "", "sinh": "", "cosh": "",
-    "tanh": "", "asinh": "", "acosh": "", "atanh": "", "exp": "", "log": "", "Abs": "ABS", "floor": "", "ceiling": "", "erf": "",
-    "erfc": "", "expm1": "", "hypot": "", "log1p": "", "log2": "", "log10": "", "gamma": "", "loggamma": ""}.items()}
+    "Pow": "POWER", "zd_spline_at": "SPLINE", "sin": "", "cos": "", "tan": "", "asin": "", "acos": "", "atan": "", "atan2": "",
+    "sinh": "", "cosh": "", "tanh": "", "asinh": "", "acosh": "", "atanh": "", "exp": "", "log": "", "Abs": "ABS",
+    "floor": "", "ceiling": "", "erf": "", "erfc": "", "expm1": "", "hypot": "", "log1p": "", "log2": "", "log10": "",
+    "gamma": "", "loggamma": ""}.items()}
 TABLES = {"formulations": lib.ZD_FORMULATIONS, "integrators": lib.ZD_INTEGRATORS, "corrections": lib.ZD_CORRECTIONS}
 INPUTS = {"force": lib.ZD_INPUT_FORCE, "speed": lib.ZD_INPUT_SPEED}
 
@@ -103,7 +102,7 @@ def settings(core_settings: Any) -> list[float]:
     return [float(getattr(core_settings, name)) for name in names]
 
 
-WIDTHS = {"laws": 4, "instructions": 4, "splines": 2, "knots": 5, "inputs": 5, "settings": 9, "methods": 2 + lib.ZD_ROW_VALUES,
+WIDTHS = {"laws": 7, "instructions": 4, "splines": 2, "knots": 5, "inputs": 5, "settings": 9, "methods": 2 + lib.ZD_ROW_VALUES,
           "parameters": 5, "effects": 3, "products": 7}
 
 
