@@ -257,7 +257,7 @@ int zd_kinematics(const zd_prescribed_motion *motion, const double *p, zd_tracke
     set_target(self, 0, 1);
     zd_copy_all(self->nq, p, self->next);
     int status = factor(self, self->next);
-    self->is_determined = self->rows.space.pivot > SINGULAR;
+    self->is_determined = found->is_determined = self->rows.space.pivot > SINGULAR;
     zd_copy_all(self->quantities, self->rows.value, self->next + self->nq);
     copy(self, self->next, self->sample);
     copy(self, self->next, self->reached);

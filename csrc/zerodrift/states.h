@@ -107,6 +107,7 @@ typedef struct zd_tracked {
     double *reached;            /* (quantities,): the last values before it */
     int64_t contradicting;      /* first sample where quantities or their rates contradict each other or the constraints; -1: none */
     double contradiction;       /* residual there, relative to the changes or rates */
+    int is_determined;          /* 1: the quantities determine all positions at p */
 } zd_tracked;
 
 /* The motion from p (nq,) on, which satisfies the constraints at the first time. Where the quantities do not determine all positions there,

@@ -18,7 +18,8 @@ static zd_space_axes turned_axes(const zd_rotation *R, const zd_space_axes *own)
 void zd_space_tree_turn_axes(zd_space_axes *F, int direction, double angle)
 {
     const int i = (direction + 1) % 3, k = (direction + 2) % 3;
-    const double c = zd_cos(angle), s = zd_sin(angle);
+    double c, s;
+    zd_sines(1, &angle, &s, &c);
     const zd_vector3 a = F->d[i], b = F->d[k];
     F->d[i] = zd_plus3(zd_times3(c, a), zd_times3(s, b));
     F->d[k] = zd_minus3(zd_times3(c, b), zd_times3(s, a));

@@ -180,7 +180,7 @@ def _solved(system: BaseSystem, samples: tuple[np.ndarray, ...], names: list[str
     u, lam, residual, _, power, rank = found
     efforts = _by_name(names, [u[:, end - size:end] for size, end in zip(sizes, np.cumsum(sizes), strict=True)])
     return Efforts(system, samples, lam, efforts, (along, u), residual=residual, power=power,
-                   rank=np.nan_to_num(rank).astype(int))
+                   rank=(rank if are_known else np.nan_to_num(rank)).astype(int))
 
 
 def _refuse(at: State, vdot: np.ndarray) -> NoReturn:

@@ -83,10 +83,12 @@ def kinematics(system: SystemLike, motion: Motions, t: ArrayLike | None = None, 
     wanted = {name: prescribed(f"motion[{name!r}]", value, times, speed) for name, value in given.items()}
     times = _times(wanted, times, speed)
     p = near_to(system, near, times[0])
-    _check_quantities(state(system, times[0], p, np.zeros(system.nv)), wanted)
+    rows = _rows_of(system, times[0], p, wanted)
     value, *rates = ([getattr(each, order) for each in wanted.values()] for order in ("value", "rate", "second"))
     rates = [] if t is None and speed is None else [np.hstack(each) for each in rates]
     tracked = prescribing(system, p, wanted).track(p, np.hstack([*value, times[:, None]]), *rates)
+    if not tracked.is_determined:
+        _check_freedom(state(system, times[0], p, np.zeros(system.nv)), rows)
     _report(system, tracked, times, wanted)
     _warn_of_errors(wanted)
     return Kinematics(system, times, *tracked[:3], {name: each.error for name, each in wanted.items()}, tuple(wanted))
@@ -120,20 +122,19 @@ def _times(wanted: Mapping[str, Prescribed], times: np.ndarray | None, speed: fl
     return times
 
 
-def _check_quantities(at: State, wanted: Mapping[str, Prescribed]) -> None:
-    """Refuses quantities of velocities, those of other sizes, and those that do not determine the positions.
-
-    Raises
-    ------
-    SingularSystem
-        Naming the coordinate that stays free.
-    """
-    rows = rates_of(at.system, tuple(wanted), "motion", np.array([at.t]), at.p[None], parts=("row",))["row"][0]
+def _rows_of(system: BaseSystem, t: float, p: np.ndarray, wanted: Mapping[str, Prescribed]) -> np.ndarray:
+    """Rows of the quantities at a position; those of velocities and of other sizes are refused."""
+    rows = rates_of(system, tuple(wanted), "motion", np.array([t]), p[None], parts=("row",))["row"][0]
     for name, each in wanted.items():
-        if is_velocity(at.system, name):
+        if is_velocity(system, name):
             raise WrongValue(f"motion must prescribe quantities of positions, and {name!r} is one of velocities", "wrong-measure")
-        if each.value.shape[1] != (size := at.system._watching.size(name)):
+        if each.value.shape[1] != (size := system._watching.size(name)):
             raise WrongValue(f"motion[{name!r}] must have {size} components, not {each.value.shape[1]}", "shape")
+    return rows
+
+
+def _check_freedom(at: State, rows: np.ndarray) -> None:
+    """Refuses quantities that do not determine the positions; the coordinate that stays free is named."""
     free = null_space(np.vstack([at.holonomic, rows]), scales(at.system, at.p).v)
     if free.shape[1]:
         named = ", ".join(sorted({dominant(at, at.A @ column) for column in free.T}))

@@ -16,7 +16,8 @@ class Tracked(NamedTuple):
     """Positions (k, nq), velocities and accelerations (k, nv), NaN where they are unknown.
 
     `reached`: the last values (n,) before a dead point. `contradicting`: the first sample, or -1, at which quantities or their
-    rates contradict each other or the constraints, and by how much, relative to their changes or rates.
+    rates contradict each other or the constraints, and by how much, relative to their changes or rates. `is_determined`: they
+    determine all positions where the tracking begins.
     """
 
     p: np.ndarray
@@ -25,6 +26,7 @@ class Tracked(NamedTuple):
     reached: np.ndarray | None
     contradicting: int
     contradiction: float
+    is_determined: bool
 
 
 class Prescribing:
@@ -77,7 +79,8 @@ class Prescribing:
         self._checked(lib.zd_kinematics(motion, doubles(p, p.size), found))
         if found.dead < 0:
             arrays["reached"] = None
-        return Tracked(**arrays, contradicting=found.contradicting, contradiction=found.contradiction)
+        return Tracked(**arrays, contradicting=found.contradicting, contradiction=found.contradiction,
+                       is_determined=bool(found.is_determined))
 
 
 def quintic_spline(t: np.ndarray, value: np.ndarray, rate: np.ndarray, second: np.ndarray) -> None:
