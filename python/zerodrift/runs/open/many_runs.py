@@ -182,10 +182,9 @@ class ManyRuns:
 
         Measures of positions and velocities may differ from its values by rounding, where the equations are in closed form.
         """
-        name: Any = getattr(measure, "name", measure)
-        read = self._readers.get(name)
+        read = self._readers.get(measure)
         if read is None:
-            read = self._readers[name] = self._reader(name)
+            read = self._readers[measure] = self._reader(getattr(measure, "name", measure))
         return read()
 
     def _reader(self, name: Any) -> Callable[[], np.ndarray]:

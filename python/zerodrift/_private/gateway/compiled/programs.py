@@ -58,11 +58,12 @@ def expressions(written: Any) -> tuple[Any, Any]:
 def reader(program: tuple[Any, Any], numbers: Sequence[float], *states: np.ndarray) -> Callable[[], np.ndarray]:
     """Function that returns values (k, results) of `expressions` at the present t (k,), x (k, terms) and xdot (k, rates)."""
     made, given, count = program[0], np.array([*numbers, 0.0]), len(states[0])
+    shape = count, made.results
     memory = [doubles(each, each.size) for each in (given, *(np.ascontiguousarray(each, dtype=float) for each in states))]
 
     def read(keep: Any = program) -> np.ndarray:
-        out = np.empty((count, made.results))
-        lib.zd_expressions_evaluate_all(made, memory[0], count, *memory[1:], doubles(out, out.size))
+        out = np.empty(shape)
+        lib.zd_expressions_evaluate_all(made, memory[0], count, *memory[1:], ffi.from_buffer("double[]", out))
         return out
 
     return read
