@@ -72,7 +72,9 @@ static void unpack(zd_block_laws *self, const unpacked *of, int number)
     uint16_t *result = self->result + (int)word[FIRST_RESULT];
     double *numbers = self->number + (int)word[FIRST_NUMBER];
     memcpy(numbers, of->number, (size_t)word[NUMBERS] * sizeof *numbers);
-    for (int i = 0; i < (int)word[INSTRUCTIONS]; i++) {
+    const int last = (int)word[INSTRUCTIONS] - 1;
+    instruction[last].code = ZD_CODE_END;
+    for (int i = 0; i < last; i++) {
         const double *from = instruction_of(of, i);
         instruction[i] = (zd_instruction){(uint16_t)from[0], (uint16_t)from[1], (uint16_t)from[2], (uint16_t)from[3]};
         self->know_time |= from[1] == word[NUMBERS] || from[2] == word[NUMBERS] || from[3] == word[NUMBERS];
