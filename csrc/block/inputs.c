@@ -7,10 +7,19 @@
 
 static const double *input_of(const zd_block *block, int input) { return zd_block_entry(&block->layout, ZD_BLOCK_INPUTS, input); }
 
+/* True if a law has three numbers first that do not stand for splines. */
+static int takes_speed(const zd_expressions *law)
+{
+    for (const zd_instruction *next = law->first; next->code != ZD_CODE_END; next++)
+        if (next->code == ZD_CODE_SPLINE && next->a < 3) return 0;
+    return law->numbers >= 3;
+}
+
 static int is_settable(const zd_block *block, const double *input)
 {
     if (zd_block_is(input[2], ZD_INPUT_SPEED))
-        return zd_block_is_integer(input[3], 0, zd_block_count(&block->layout, ZD_BLOCK_LAWS)) && block->laws.law[(int)input[3]].numbers >= 3;
+        return zd_block_is_integer(input[3], 0, zd_block_count(&block->layout, ZD_BLOCK_LAWS)) &&
+               takes_speed(block->laws.law + (int)input[3]);
     return zd_block_is(input[2], ZD_INPUT_FORCE) && zd_block_is_integer(input[3], 0, zd_block_count(&block->layout, ZD_BLOCK_FORCES)) &&
            block->force[(int)input[3]].kind == ZD_FORCE_CONSTANT;
 }

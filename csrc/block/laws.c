@@ -7,6 +7,7 @@
 typedef struct unpacked {
     const zd_block_layout *layout;
     const double *word, *number;
+    double first_number;        /* after the numbers of the law before: no two laws share one */
     int frame;
 } unpacked;
 
@@ -47,8 +48,9 @@ static int is_right(unpacked *of, int number, zd_complaint to)
     const double *word = of->word;
     if (!has_entries(of->layout, ZD_BLOCK_INSTRUCTIONS, word[FIRST], word[INSTRUCTIONS]) ||
         !has_entries(of->layout, ZD_BLOCK_RESULTS, word[FIRST_RESULT], word[RESULTS]) ||
-        !has_entries(of->layout, ZD_BLOCK_NUMBERS, word[FIRST_NUMBER], word[NUMBERS]) || !zd_block_is_integer(word[TERMS], 0, ZD_FRAME))
-        return zd_complain(to, "law %d: its instructions, results and numbers must exist", number);
+        !has_entries(of->layout, ZD_BLOCK_NUMBERS, word[FIRST_NUMBER], word[NUMBERS]) || word[FIRST_NUMBER] != of->first_number ||
+        !zd_block_is_integer(word[TERMS], 0, ZD_FRAME))
+        return zd_complain(to, "law %d: its instructions, results and numbers must exist, and be its own", number);
     of->number = zd_block_entry(of->layout, ZD_BLOCK_NUMBERS, (int)word[FIRST_NUMBER]);
     of->frame = (int)word[NUMBERS] + 1 + 2 * (int)word[TERMS];
     const int last = (int)word[INSTRUCTIONS] - 1;
@@ -115,8 +117,9 @@ int zd_block_laws_unpack(zd_block_laws *self, const zd_block_layout *layout, zd_
 {
     for (int i = 0; i < zd_block_count(layout, ZD_BLOCK_SPLINES); i++)
         if (!add_spline(self, layout, i, to)) return 0;
-    for (int i = 0; i < zd_block_count(layout, ZD_BLOCK_LAWS); i++) {
-        unpacked of = {.layout = layout, .word = zd_block_entry(layout, ZD_BLOCK_LAWS, i)};
+    unpacked of = {.layout = layout};
+    for (int i = 0; i < zd_block_count(layout, ZD_BLOCK_LAWS); i++, of.first_number += of.word[NUMBERS]) {
+        of.word = zd_block_entry(layout, ZD_BLOCK_LAWS, i);
         if (!is_right(&of, i, to)) return 0;
         unpack(self, &of, i);
     }

@@ -65,6 +65,22 @@ def test_the_widths_of_this_file_are_those_of_the_block():
     np.testing.assert_array_equal(np.frombuffer(data, "<f8")[start:start + system.nq], system.p0)
 
 
+def test_splines_are_out_of_reach():
+    """Numbers that two laws share, or that are a spline and a speed, could become the address of anything."""
+    m = zd.Mechanism("drives")
+    for i in range(2):
+        link = m.link(f"link{i}", (i, 0), (i, 1), mass=1.0)
+        pin = m.revolute(f"pin{i}", m.ground, link.start)
+        m.motor(f"drive{i}", pin, **({"speed": 1.0} if i else {"angle": zd.table([0.0, 1.0, 2.0], [0.0, 0.1, 0.0])}))
+    data = zd.block(m, inputs=["drive1.speed"])
+    laws, inputs = (first_word(data, name, WIDTHS) for name in ("laws", "inputs"))
+    assert BlockCore(data).inputs == {"drive1.speed": 1.0}
+    with refused("wrong-value", "law 1: .* be its own"):
+        BlockCore(with_word(data, laws + 7 + 5, 0.0))
+    with refused("wrong-value", "input 0: it must be a speed of a law"):
+        BlockCore(with_word(data, inputs + 3, 0.0))
+
+
 def seeds():
     """Blocks of the plane and of space, in joint and in absolute coordinates, with and without user functions."""
     import sympy as sp
