@@ -3,23 +3,23 @@
 
 #include "made.h"
 
-/* A law while it is unpacked: its words and numbers, and the values of its frame so far. */
-typedef struct unpacked {
+/* Entry of a law: its words and numbers, and the number of values of its frame so far. */
+typedef struct law_entry {
     const zd_block_layout *layout;
     const double *word, *number;
     double first_number;        /* after the numbers of the law before: no two laws share one */
     int frame;
-} unpacked;
+} law_entry;
 
 enum { FIRST, INSTRUCTIONS, TERMS, FIRST_RESULT, RESULTS, FIRST_NUMBER, NUMBERS };      /* words of a law */
 
-static const double *instruction_of(const unpacked *of, int i)
+static const double *instruction_of(const law_entry *of, int i)
 {
     return zd_block_entry(of->layout, ZD_BLOCK_INSTRUCTIONS, (int)of->word[FIRST] + i);
 }
 
-/* Number of instructions that are one operation, `left` to the end of the law; 0 if they are wrong. */
-static int operation_of(const unpacked *of, const double *word, int left)
+/* Number of instructions of the next operation, of `left` to the end of the law; 0 if one of them is wrong. */
+static int operation_of(const law_entry *of, const double *word, int left)
 {
     if (!zd_block_is_integer(word[0], 0, ZD_CODE_END)) return 0;
     const int is_sines = zd_block_is(word[0], ZD_CODE_SINES), most = left < ZD_SINES_AT_ONCE ? left : ZD_SINES_AT_ONCE;
@@ -43,7 +43,7 @@ static int has_entries(const zd_block_layout *layout, int section, double first,
 }
 
 /* Checks a law, and counts the values of its frame. */
-static int is_right(unpacked *of, int number, zd_complaint to)
+static int is_right(law_entry *of, int number, zd_complaint to)
 {
     const double *word = of->word;
     if (!has_entries(of->layout, ZD_BLOCK_INSTRUCTIONS, word[FIRST], word[INSTRUCTIONS]) ||
@@ -67,7 +67,7 @@ static int is_right(unpacked *of, int number, zd_complaint to)
     return 1;
 }
 
-static void unpack(zd_block_laws *self, const unpacked *of, int number)
+static void unpack(zd_block_laws *self, const law_entry *of, int number)
 {
     const double *word = of->word;
     zd_instruction *instruction = self->instruction + (int)word[FIRST];
@@ -117,7 +117,7 @@ int zd_block_laws_unpack(zd_block_laws *self, const zd_block_layout *layout, zd_
 {
     for (int i = 0; i < zd_block_count(layout, ZD_BLOCK_SPLINES); i++)
         if (!add_spline(self, layout, i, to)) return 0;
-    unpacked of = {.layout = layout};
+    law_entry of = {.layout = layout};
     for (int i = 0; i < zd_block_count(layout, ZD_BLOCK_LAWS); i++, of.first_number += of.word[NUMBERS]) {
         of.word = zd_block_entry(layout, ZD_BLOCK_LAWS, i);
         if (!is_right(&of, i, to)) return 0;

@@ -4,7 +4,7 @@
 
 int zd_terms_by_programs(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
 {
-    const zd_programmed *given = data;
+    const zd_terms_data *given = data;
     const zd_term_programs *self = given->programs;
     const size_t numbers = (size_t)self->numbers, literals = (size_t)self->literals, nq = (size_t)self->nq, size = sizeof *p;
     double *value = out->scratch, *time = value + numbers + literals;

@@ -32,10 +32,10 @@ typedef struct zd_term_programs {
 } zd_term_programs;
 
 /* Data of zd_terms_by_programs(); closed-form functions read the numbers, too. */
-typedef struct zd_programmed {
+typedef struct zd_terms_data {
     const double *numbers;
     const zd_term_programs *programs;
-} zd_programmed;
+} zd_terms_data;
 
 /* A zd_evaluate. */
 int zd_terms_by_programs(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out);

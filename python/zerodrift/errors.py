@@ -364,7 +364,7 @@ class CompilationFailed(ZerodriftError):
 
 
 class NoCompilerWarning(_Coded, UserWarning):
-    """There is no C compiler: a system whose equations would be compiled is interpreted, some times slower."""
+    """There is no C compiler: a system whose equations would be compiled is interpreted, several times slower."""
 
     code = "no-compiler"
 

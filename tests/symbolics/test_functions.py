@@ -51,7 +51,7 @@ def forces(variables, rates, expressions):
     system = zd.symbolic(variables, speeds=rates, kinetic=sum(v**2 for v in rates) / 2, force=expressions, potential=None)
     assert system.compiled
     by_programs = copy.copy(system)
-    by_programs._core = by_programs._programmed()
+    by_programs._core = by_programs._program_core()
     return lambda p: system.evaluate(p).f, lambda p: by_programs.evaluate(p).f
 
 

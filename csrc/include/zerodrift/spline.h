@@ -7,7 +7,7 @@
 
 #include "closed_form.h"
 
-/* Derivative of order 0, 1 or 2 at x of the zd_spline whose address is a number; not a number beyond its ends, up to rounding. */
+/* Derivative of order 0, 1 or 2 at x of the zd_spline whose address is given as a number; NaN beyond its ends, except for rounding. */
 static inline double zd_spline_at(double address, double x, double order)
 {
     static const double BEYOND = 1e-9;      /* part of the length: rounding beyond the ends that is accepted, as in laws/table.py */

@@ -15,7 +15,7 @@ from .._private import checks, gateway
 from .._private.gateway import NativeCore, Variable
 from .._private.gateway.compiled import programs
 from .._private.gateway.compiled.precise import Precise
-from .._private.gateway.compiled.programs import ProgrammedCore
+from .._private.gateway.compiled.programs import ProgramCore
 from .._private.gateway.inputs import Bound, Place
 from ..errors import NeedsCompiler, NoCompilerWarning, UnsuitedIntegrator, WrongValue
 from ..systems.base import BaseSystem
@@ -99,8 +99,8 @@ class SymbolicSystem(BaseSystem):
         self.compiled = self._library is not None
         if not self.compiled:
             warnings.warn(f"there is no C compiler (looked for {compilers.looked_for()}): {self.name} is interpreted, "
-                          f"some times slower", NoCompilerWarning, stacklevel=3)
-        self._core = self._native() if self.compiled else self._programmed()
+                          f"several times slower", NoCompilerWarning, stacklevel=3)
+        self._core = self._native() if self.compiled else self._program_core()
         self._with_closed_form: dict[tuple[str, bool], NativeCore] = {}     # by vector unit, and whether they embed
 
     def _native(self) -> NativeCore:
@@ -120,7 +120,7 @@ class SymbolicSystem(BaseSystem):
 
     def _closed_form_core(self, vector: str = "baseline", embeds: bool = False) -> gateway.CoreSystem:
         functions, core = self._functions(embeds), self._core
-        if isinstance(core, ProgrammedCore):
+        if isinstance(core, ProgramCore):
             return self._with_programs(core, embeds)
         library = functions.library(vector)
         if library is None:
@@ -195,7 +195,7 @@ class SymbolicSystem(BaseSystem):
 
     def _bound(self, core: NativeCore, names: Sequence[str]) -> Bound:
         """The system of one run, with data of its own."""
-        if isinstance(core, ProgrammedCore):
+        if isinstance(core, ProgramCore):
             numbers = core.numbers.copy()
             mine, pointer = core.with_numbers(numbers), gateway.doubles(numbers, numbers.size)
             return Bound(mine, [Place(name, False, pointer + self._code.parameters.index(name)) for name in names], [], numbers)
@@ -239,14 +239,14 @@ class SymbolicSystem(BaseSystem):
         refused = refusals(self._with, parameters, not_finite(parameters, count))
         return NumberTables(core, data, data.shape[1], self.p0, self.v0, refused)
 
-    def _programmed(self) -> ProgrammedCore:
+    def _program_core(self) -> ProgramCore:
         code = self._code
         if isinstance(code.programs, str):
             raise NeedsCompiler(f"{self.name} has no C compiler, and no programs: {code.programs}")
-        return ProgrammedCore(Terms(*code.programs), self._values, code.sizes, (*self.coordinates, *self.velocities),
+        return ProgramCore(Terms(*code.programs), self._values, code.sizes, (*self.coordinates, *self.velocities),
                               timeless=code.timeless, quaternions=self._places, packing=self._packing)
 
-    def _with_programs(self, core: ProgrammedCore, embeds: bool) -> gateway.CoreSystem:
+    def _with_programs(self, core: ProgramCore, embeds: bool) -> gateway.CoreSystem:
         """System with closed-form functions by programs, if there are any."""
         if ("", embeds) not in self._with_closed_form:
             found = self._functions(embeds).interpreted(self._values)
@@ -264,7 +264,7 @@ class SymbolicSystem(BaseSystem):
         other.parameters, other._values = self.parameters | changed, self._values.copy()
         for key, value in changed.items():
             other._values[self._code.parameters.index(key)] = checks.number(f"parameter {key!r}", value)
-        other._core = (self._core.with_numbers(other._values) if isinstance(self._core, ProgrammedCore)
+        other._core = (self._core.with_numbers(other._values) if isinstance(self._core, ProgramCore)
                        else self._core.with_data(other._data()))
         return other
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import _signal  # its functions in `signal` make members of enumerations of their results, which takes half of a short run's time
+# Functions of `signal` make members of enumerations of the results of these, which takes half of a short run's time.
+import _signal  # type: ignore[import-not-found]
 import signal
 import threading
 from collections.abc import Callable

@@ -224,7 +224,7 @@ def evaluator(lowering: Lowering, outputs: Mapping[Any, list[int]], parameters: 
 
 def reader(lowering: Lowering, results: list[int], parameters: np.ndarray, t: np.ndarray, p: np.ndarray,
            v: np.ndarray) -> Callable[[], np.ndarray] | None:
-    """Function that returns values (k, results) at the present t (k,), p (k, nq) and v (k, nv); None: there is no program."""
+    """Function that returns values (k, results) at the present t (k,), p (k, nq) and v (k, nv); None without a program."""
     try:
         written = expressions(lowering, results, len(parameters), p.shape[1], v.shape[1])
     except Unwritten:

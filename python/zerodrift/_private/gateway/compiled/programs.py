@@ -69,7 +69,7 @@ def reader(program: tuple[Any, Any], numbers: Sequence[float], *states: np.ndarr
     return read
 
 
-class ProgrammedCore(NativeCore):
+class ProgramCore(NativeCore):
     """A system whose terms are programs, as `symbolics.emit.program_writer.terms` writes them, of parameters in `numbers`."""
 
     def __init__(self, written: Any, numbers: np.ndarray, sizes: tuple[int, int, int, int], variables: Iterable[Variable],
@@ -94,17 +94,17 @@ class ProgrammedCore(NativeCore):
     def _read(self, numbers: np.ndarray) -> None:
         """Sets the numbers that functions read, parameters first."""
         self.numbers, self._memory = numbers, doubles(numbers, numbers.size)
-        self._given = ffi.new("zd_programmed *", (self._memory, self._programs))
+        self._given = ffi.new("zd_terms_data *", (self._memory, self._programs))
         self.c.data = self._given
 
-    def with_numbers(self, numbers: np.ndarray) -> ProgrammedCore:
+    def with_numbers(self, numbers: np.ndarray) -> ProgramCore:
         """Copy of the system with other numbers."""
         other = copy.copy(self)
         other.c = ffi.new("zd_system *", self.c[0])
         other._read(numbers)
         return other
 
-    def with_closed_forms(self, forms: Any, keep: Any, numbers: np.ndarray) -> ProgrammedCore:
+    def with_closed_forms(self, forms: Any, keep: Any, numbers: np.ndarray) -> ProgramCore:
         """Copy of the system with closed-form functions, a `zd_closed_form[]`, and the numbers that these read."""
         other = self.with_numbers(numbers)
         other.c.closed_form, other.c.closed_forms = forms, len(forms)

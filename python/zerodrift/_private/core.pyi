@@ -1,0 +1,6 @@
+"""The compiled core, as CFFI makes it."""
+
+from typing import Any
+
+ffi: Any
+lib: Any
