@@ -6,13 +6,13 @@ import subprocess
 import numpy as np
 import pytest
 import sympy
-from zerodrift._private.core import ffi
 
 import tolerances as tol
 import zerodrift as zd
 from core_objects import CC, CSRC, needs_compiler
 from random_symbolic import random_system
 from support import ROOT, along, assert_close, consistent_states
+from zerodrift._private.core import ffi
 from zerodrift.analysis.derivatives import Derivatives, jacobian
 from zerodrift.analysis.state import state as terms_at
 from zerodrift.analysis.tangent import Tangent

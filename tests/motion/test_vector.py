@@ -4,13 +4,13 @@ import os
 
 import numpy as np
 import pytest
-from zerodrift._private.core import lib
 
 import symbolic_counterparts
 import tolerances as tol
 import zerodrift as zd
 from native_systems import needs_compiler
 from support import refused
+from zerodrift._private.core import lib
 from zerodrift.runs.arguments import settings
 
 UNITS = settings.VECTOR_UNITS[: lib.zd_processor_unit() + 1]

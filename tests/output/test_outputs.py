@@ -5,7 +5,6 @@ import pickle
 
 import numpy as np
 import pytest
-from zerodrift._private.core import ffi, lib
 
 import zerodrift as zd
 from large_mechanisms import four_bars
@@ -14,6 +13,7 @@ from mechanisms.plain_space import Plain
 from native_systems import PENDULUM, compile_text, needs_compiler
 from support import handed, refused
 from zerodrift._private import gateway
+from zerodrift._private.core import ffi, lib
 
 OUTPUTS = ["C.force", "crank.angle", "coupler.end.velocity.y", "drive.power", "A.torque"]
 

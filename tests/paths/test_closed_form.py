@@ -4,7 +4,6 @@ import functools
 
 import numpy as np
 import pytest
-from zerodrift._private.core import ffi
 
 import energy_models
 import symbolic_counterparts
@@ -14,6 +13,7 @@ from native_systems import needs_compiler
 from random_symbolic import random_system
 from support import INTEGRATORS, assert_close, refused
 from zerodrift._private import gateway
+from zerodrift._private.core import ffi
 from zerodrift.runs.arguments.settings import VECTOR_UNITS
 
 sp = pytest.importorskip("sympy")

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from zerodrift._private.core import ffi
 
 import zerodrift as zd
 from support import handed
 from zerodrift._private import gateway
+from zerodrift._private.core import ffi
 
 
 def created(options, core=None):

@@ -4,12 +4,12 @@ import re
 
 import numpy as np
 import pytest
-from zerodrift._private.core import ffi, lib
 
 import zerodrift as zd
 from native_systems import GIVEN, PENDULUM, compile_text, needs_compiler
 from support import handed, refused
 from zerodrift._private import gateway
+from zerodrift._private.core import ffi, lib
 
 ANY = 1     # the address of some function, which is not called here
 

@@ -3,8 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from zerodrift._private.core import ffi
 
+from zerodrift._private.core import ffi
 from zerodrift._private.gateway.base import doubles
 
 

@@ -4,9 +4,9 @@ import ctypes
 
 import numpy as np
 import pytest
-from zerodrift._private.core import ffi, lib
 
 from zerodrift._private import gateway
+from zerodrift._private.core import ffi, lib
 from zerodrift._private.gateway.compiled import programs
 from zerodrift.symbolics.compile.shared_library import QUICKLY
 

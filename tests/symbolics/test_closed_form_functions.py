@@ -4,7 +4,6 @@ import pickle
 
 import numpy as np
 import pytest
-from zerodrift._private.core import ffi, lib
 
 import tolerances as tol
 import zerodrift as zd
@@ -12,6 +11,7 @@ from covering import spread
 from native_systems import needs_compiler
 from random_symbolic import random_system
 from support import numbers
+from zerodrift._private.core import ffi, lib
 from zerodrift.symbolics.emit import closed_form, closed_form_writer
 from zerodrift.symbolics.graph.lowering import Lowering
 

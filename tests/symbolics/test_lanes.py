@@ -4,7 +4,6 @@ import functools
 
 import numpy as np
 import pytest
-from zerodrift._private.core import ffi
 
 import tolerances as tol
 import zerodrift as zd
@@ -14,6 +13,7 @@ from native_systems import needs_compiler
 from random_symbolic import random_system
 from symbolic_counterparts import OF_PARAMETERS
 from vector_units import SETS, DirectSet, available, closed_form_sets
+from zerodrift._private.core import ffi
 
 sp = pytest.importorskip("sympy")
 pytestmark = needs_compiler

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from zerodrift._private.core import lib
 
 from angles import CONTRACTED, KINDS, angles_of, assert_accurate, assert_same
 from native_systems import COMPILER, compile_library
 from support import ROOT
 from vector_units import SETS, available
+from zerodrift._private.core import lib
 
 OF_EACH = 3         # angles of a trajectory, in tests/native/lanes.c
 OPERATIONS = 8      # and operations

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from zerodrift._private.core import ffi, lib
 
 from space_tables import KINDS, random_frame
 from support import assert_close
+from zerodrift._private.core import ffi, lib
 from zerodrift._private.gateway.mechanisms.plane import OutputSpec
 from zerodrift._private.gateway.mechanisms.space import Body, Joint, SpaceCore, Tables, coordinate_quantity
 
