@@ -1,5 +1,4 @@
 /* Operations of a run for single states: accelerations, projection, states between states. */
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -16,7 +15,7 @@
 static int finish(zd_run *run, int status, char *message, int size)
 {
     if (status) status = zd_explain(run, status);
-    snprintf(message, (size_t)size, "%s", run->outcome.message);
+    snprintf(message, size, "%s", run->outcome.message);
     zd_run_free(run);
     return status;
 }
@@ -48,10 +47,10 @@ int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singul
         const zd_point *point = run->motion.point;
         const int64_t m = zd_constraints(system);
         zd_rank_find_multipliers(point);
-        if (vdot) memcpy(vdot + i * nv, point->vdot, (size_t)nv * sizeof *vdot);
-        if (multipliers) memcpy(multipliers + i * m, point->lambda, (size_t)m * sizeof *multipliers);
+        if (vdot) memcpy(vdot + i * nv, point->vdot, nv * sizeof *vdot);
+        if (multipliers) memcpy(multipliers + i * m, point->lambda, m * sizeof *multipliers);
         if (is_deficient) is_deficient[i] = zd_rank_is_deficient(point);
-        if (u) memcpy(u + i * system->reading->functions, point->inputs, (size_t)system->reading->functions * sizeof *u);
+        if (u) zd_copy_all(system->reading->functions, point->inputs, u + i * system->reading->functions);
         status = finish(run, status, message, message_size);
     }
     return status;
@@ -97,7 +96,7 @@ int zd_residuals_along(const zd_system *system, const double *inputs, int parts,
     zd_arena arena = zd_arena_in(memory);
     zd_residual_state state = zd_residual_state_create(&arena, system, &statistics, accuracy);
     zd_point *point = zd_point_create(&arena, system, &statistics);
-    if (system->reading && inputs) memcpy(point->inputs, inputs, (size_t)system->reading->functions * sizeof *inputs);
+    if (system->reading && inputs) zd_copy_all(system->reading->functions, inputs, point->inputs);
     zd_point_move(point, t, p, v);
     zd_residual_state_begin(&state, parts, point, vdot, lambda);
     int status = ZD_DONE;
@@ -134,11 +133,11 @@ static int project_stage(const zd_system *system, const zd_settings *settings, i
     if (!run) return status;
     run->motion.drifts_from = ZD_PHI | ZD_C;
     run->motion.corrects = corrects;
-    if (!status) status = zd_motion_correct(&run->motion, 0, 1);
+    if (!status) status = zd_motion_correct(&run->motion);
     if (!status && scales_left) status = check_scales(run, scales_left);
     zd_point_follow(run->motion.point);
-    memcpy(p, run->motion.point->p, (size_t)system->nq * sizeof *p);
-    memcpy(v, run->motion.point->v, (size_t)system->nv * sizeof *v);
+    zd_copy_all(system->nq, run->motion.point->p, p);
+    zd_copy_all(system->nv, run->motion.point->v, v);
     if (iterations) *iterations += (int)run->motion.statistics.position_iterations;
     return finish(run, status, message, message_size);
 }
@@ -192,14 +191,14 @@ int zd_project(const zd_system *system, const zd_settings *settings, double t, d
     if (!status) status = zd_check_quaternions(system, p, 1, message, message_size);
     if (!status) status = project(&store, system, &stage, t, p, v, hold_p, hold_v, iterations, message, message_size);
     zd_store_release(&store);
-    if (status == ZD_NO_MEMORY && !*message) snprintf(message, (size_t)message_size, "%s", zd_sentence(status));
+    if (status == ZD_NO_MEMORY && !*message) snprintf(message, message_size, "%s", zd_sentence(status));
     return status;
 }
 
 static void copy_state(const zd_system *system, const double *p, const double *v, double *to_p, double *to_v)
 {
-    memcpy(to_p, p, (size_t)system->nq * sizeof *p);
-    memcpy(to_v, v, (size_t)system->nv * sizeof *v);
+    zd_copy_all(system->nq, p, to_p);
+    zd_copy_all(system->nv, v, to_v);
 }
 
 int zd_states_between(const zd_system *system, const zd_settings *settings, const zd_saved *saved, int64_t count, const double *t, double *p,

@@ -4,13 +4,14 @@
 #include <string.h>
 
 #include "registry.h"
+#include "linalg/small.h"
 
 zd_parameter_values zd_initial(const zd_card *card)
 {
     zd_parameter_values initial = {1, {0}};
     double *value = initial.value;
     for (int i = 0; i < card->parameters; value += card->parameter[i++].size)
-        memcpy(value, card->parameter[i].initial, (size_t)card->parameter[i].size * sizeof *value);
+        zd_copy_all(card->parameter[i].size, card->parameter[i].initial, value);
     return initial;
 }
 
@@ -61,7 +62,7 @@ static int check_rules(const zd_card *card, const double *value, char *message, 
 int zd_check_parameter_values(enum zd_table table, int row, const zd_parameter_values *given, char *message, int message_size)
 {
     if (!given->given) return ZD_DONE;
-    const size_t size = (size_t)message_size;
+    const size_t size = message_size;
     int status = check_rules(zd_entry_card(table, row), given->value, message, size);
     if (status || table != ZD_CORRECTIONS) return status;
     const zd_correction *correction = zd_correction_of(row);

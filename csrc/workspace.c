@@ -71,6 +71,12 @@ void *zd_allocate(size_t bytes)
     return memory ? memset(memory, 0, size) : NULL;
 }
 
+int zd_arena_allocate(zd_arena *arena)
+{
+    *arena = (zd_arena){.base = zd_allocate(arena->used)};
+    return arena->base != NULL;
+}
+
 void zd_release(void *memory)
 {
     GIVE_BACK(memory);
@@ -106,6 +112,12 @@ zd_memory *zd_store_add(zd_store *store, size_t bytes)
     memory->previous = store->last;
     store->last = memory;
     return memory;
+}
+
+void *zd_store_bytes(zd_store *store, size_t bytes)
+{
+    const zd_memory *memory = zd_store_add(store, bytes);
+    return memory ? memory->base : NULL;
 }
 
 void *zd_store_create(zd_store *store, void *(*create)(zd_arena *arena, const void *of), const void *of)

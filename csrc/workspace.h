@@ -25,6 +25,8 @@ void zd_memory_free(zd_memory *memory);
 int zd_memory_save(zd_memory *memory);      /* copies the block to its image; nonzero: out of memory */
 static inline zd_arena zd_arena_in(zd_memory *memory) { return (zd_arena){memory->base, 0, memory->has_structures}; }
 
+/* Begins an arena with the memory that it has counted, to be released by its base; 0 without memory. */
+int zd_arena_allocate(zd_arena *arena);
 void *zd_arena_bytes(zd_arena *arena, size_t bytes);
 double *zd_arena_doubles(zd_arena *arena, size_t count);
 int *zd_arena_ints(zd_arena *arena, size_t count);
@@ -50,4 +52,5 @@ typedef struct zd_store {
 /* Adds a block laid out by `create`, which is called twice as for an arena; NULL without memory. */
 void *zd_store_create(zd_store *store, void *(*create)(zd_arena *arena, const void *of), const void *of);
 zd_memory *zd_store_add(zd_store *store, size_t bytes);     /* adds a zeroed block; NULL without memory */
+void *zd_store_bytes(zd_store *store, size_t bytes);        /* the same for numbers: their address */
 void zd_store_release(zd_store *store);

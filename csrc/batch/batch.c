@@ -1,8 +1,6 @@
 /* Many runs in one call: each begins at its entry of the arrays and ends independently of the others. */
 #include "batch.h"
 
-#include "../zerodrift.h"
-
 static void prepare(const zd_batch *batch)
 {
     for (int64_t i = 0; i < batch->runs; i++) {
@@ -19,9 +17,8 @@ int zd_batch_run(const zd_batch *batch)
 {
     zd_arena arena = {0};
     zd_single_run_create(&arena, batch);
-    arena = (zd_arena){.base = zd_allocate(arena.used)};
     prepare(batch);
-    if (!arena.base) return ZD_NO_MEMORY;
+    if (!zd_arena_allocate(&arena)) return ZD_NO_MEMORY;
     const zd_single_run own = zd_single_run_create(&arena, batch);
     int status = ZD_DONE;
     if (zd_lanes_serve(batch)) status = zd_run_side_by_side(batch, &own);

@@ -1,6 +1,6 @@
 #include "batch.h"
 
-#include <string.h>
+#include "../linalg/small.h"
 
 static int count_events(const zd_batch *batch)
 {
@@ -19,7 +19,7 @@ void zd_event_samples_clear(const zd_batch *batch, int64_t run)
 
 static void write(double *to, int64_t place, int count, const double *from)
 {
-    if (to) memcpy(to + place * count, from, (size_t)count * sizeof *from);
+    if (to) zd_copy_all(count, from, to + place * count);
 }
 
 int zd_event_samples_add(void *found, int event, double t, const double *p, const double *v)

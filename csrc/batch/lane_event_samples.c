@@ -7,7 +7,7 @@
 zd_lane_search zd_lane_search_create(zd_arena *arena, const zd_lanes *lanes)
 {
     if (!lanes->watches) return (zd_lane_search){.ended = 0};
-    const size_t events = (size_t)lanes->events, size = (size_t)lanes->size;
+    const size_t events = lanes->events, size = lanes->size;
     return (zd_lane_search){
         .before = zd_arena_doubles(arena, events),
         .now = zd_arena_doubles(arena, events),

@@ -4,6 +4,7 @@
  */
 #include <math.h>
 
+#include "../linalg/small.h"
 #include "../step_limits.h"
 #include "batch.h"
 #include "group.h"
@@ -166,8 +167,8 @@ static void mix(const zd_lane_group *self, int lane, double share, double *mixed
         const double late = zd_lane_number(lanes, lanes->y_sample, i, lane);
         mixed[i] = share == 1 ? late : early[i] + share * (late - early[i]);
     }
-    for (int i = 0; i < lanes->nq; i++) self->p[i] = mixed[i];
-    for (int i = 0; i < lanes->nv; i++) self->v[i] = mixed[lanes->nq + i];
+    zd_copy(lanes->nq, mixed, self->p);
+    zd_copy(lanes->nv, mixed + lanes->nq, self->v);
 }
 
 /* Finds the state at the event and records it; the states before and after are known, the latter in y_sample. */

@@ -1,8 +1,9 @@
 /* Samples of runs in lanes that are due within the last step and at its end. */
 #include <math.h>
-#include <string.h>
 
 #include "group.h"
+
+#include "../linalg/small.h"
 
 static int64_t entries_of_p(const zd_lane_group *self) { return self->lanes.nq; }
 
@@ -104,7 +105,7 @@ void zd_lane_group_save(zd_lane_group *self)
     int is_within;
     while (mark(self, &is_within)) {
         if (is_within || multipliers) self->functions->move_within(lanes, multipliers);
-        else memcpy(lanes->y_sample, lanes->y, (size_t)(lanes->size * lanes->lanes) * sizeof *lanes->y);
+        else zd_copy_all(lanes->size * lanes->lanes, lanes->y, lanes->y_sample);
         save_marked(self);
     }
     for (int lane = 0; lane < lanes->lanes && !by_time; lane++) self->run_of[lane].next = 0;

@@ -51,7 +51,7 @@ const zd_lane_functions *zd_lane_functions_of(const zd_system *system, enum zd_u
 /* Allocates `count` numbers per lane; all are contiguous, from self->first on. */
 static double *allocate(zd_lanes *self, zd_arena *arena, int64_t count)
 {
-    double *here = zd_arena_doubles(arena, (size_t)(count * self->lanes));
+    double *here = zd_arena_doubles(arena, count * self->lanes);
     if (!self->first) self->first = here;
     return here;
 }
@@ -124,7 +124,7 @@ static int entry_of(const zd_lanes *self, const zd_events *events, int event)
 static void create_events(zd_lanes *self, zd_arena *arena, const zd_events *events)
 {
     if (!events) return;
-    zd_watched *watched = zd_arena_bytes(arena, (size_t)events->count * sizeof *watched);
+    zd_watched *watched = zd_arena_bytes(arena, events->count * sizeof *watched);
     self->watched = watched;
     self->events = events->count;
     self->watches = ZD_WATCHES_NUMBERS;

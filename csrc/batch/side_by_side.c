@@ -55,16 +55,16 @@ int zd_lanes_serve_run(const zd_run *run)
 static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_single_run *own, zd_run *run)
 {
     const zd_system *system = batch->system;
-    const size_t size_of_C = (size_t)(zd_constraints(system) * system->nv);
+    const size_t size_of_C = zd_constraints(system) * system->nv;
     const zd_closed_form *closed_form = NULL;
     zd_lane_group group = {
         .batch = batch, .own = own, .run = run,
         .functions = zd_lane_functions_of(system, batch->settings->vector, &closed_form),
         .start = zd_arena_bytes(arena, zd_run_start_memory(run)),
-        .p = zd_arena_doubles(arena, (size_t)system->nq),
-        .v = zd_arena_doubles(arena, (size_t)system->nv),
+        .p = zd_arena_doubles(arena, system->nq),
+        .v = zd_arena_doubles(arena, system->nv),
         .C = zd_arena_doubles(arena, size_of_C),
-        .terms = {.scratch = zd_arena_doubles(arena, (size_t)system->scratch), .inputs = run->motion.point->inputs},
+        .terms = {.scratch = zd_arena_doubles(arena, system->scratch), .inputs = run->motion.point->inputs},
     };
     zd_lanes_create(&group.lanes, arena, run, group.functions, closed_form, batch->doubles);
     group.reader = zd_reader_create(arena, batch->settings->events, system, run->motion.point->inputs, NULL);
@@ -135,7 +135,7 @@ static int say_event(const zd_lane_group *self, int lane)
     const zd_lanes *lanes = &self->lanes;
     const zd_lane_run *run = &self->run_of[lane];
     char *message = zd_message_of(batch, run->number);
-    const size_t size = (size_t)batch->message_size, said = zd_say_where(message, size, lanes->t[lane], (int64_t)lanes->number[lane],
+    const size_t size = batch->message_size, said = zd_say_where(message, size, lanes->t[lane], (int64_t)lanes->number[lane],
                                                                          self->run->loop.steps);
     zd_say_event(message + said, size - said, run->search.ended - 1);
     return ZD_EVENT;
@@ -246,8 +246,7 @@ static int run_in_lanes(const zd_batch *batch, const zd_single_run *own, zd_run 
 {
     zd_arena arena = {0};
     lay_out(&arena, batch, own, run);
-    arena = (zd_arena){.base = zd_allocate(arena.used)};
-    if (!arena.base) return ZD_NO_MEMORY;
+    if (!zd_arena_allocate(&arena)) return ZD_NO_MEMORY;
     zd_lane_group group = lay_out(&arena, batch, own, run);
     group.next = first;
     run_all(&group);

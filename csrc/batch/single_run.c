@@ -3,8 +3,8 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
+#include "../linalg/small.h"
 #include "../step/step_loop.h"
 
 static const double SLICE = 0.02;       /* s: interval at which a stop request is checked */
@@ -23,7 +23,7 @@ zd_single_run zd_single_run_create(zd_arena *arena, const zd_batch *batch)
 {
     const zd_system *system = batch->system;
     const zd_outputs *outputs = batch->settings->outputs;
-    const size_t rows = (size_t)batch->capacity, nq = (size_t)system->nq, nv = (size_t)system->nv, m = (size_t)count_constraints(system);
+    const size_t rows = batch->capacity, nq = system->nq, nv = system->nv, m = count_constraints(system);
     return (zd_single_run){
         .p = zd_arena_doubles(arena, nq),
         .v = zd_arena_doubles(arena, nv),
@@ -80,8 +80,8 @@ int zd_batch_is_stopped(const zd_batch *batch)
 
 int zd_single_run_start(const zd_batch *batch, const zd_system *system, const zd_single_run *own, int64_t run)
 {
-    if (batch->p0) memcpy(own->p, batch->p0 + run * system->nq, (size_t)system->nq * sizeof(double));
-    if (batch->v0) memcpy(own->v, batch->v0 + run * system->nv, (size_t)system->nv * sizeof(double));
+    if (batch->p0) zd_copy_all(system->nq, batch->p0 + run * system->nq, own->p);
+    if (batch->v0) zd_copy_all(system->nv, batch->v0 + run * system->nv, own->v);
     if (!batch->assembly) return ZD_DONE;
     return zd_project(system, batch->assembly, batch->settings->t0, own->p, own->v, batch->hold_p, batch->hold_v, NULL,
                       zd_message_of(batch, run), batch->message_size);
@@ -117,7 +117,7 @@ static void advance(const zd_batch *batch, zd_run *run, zd_record *record, int64
     batch->kinetic[number] = zd_run_kinetic(run);
     batch->energy_error[number] = zd_run_energy_error(run);
     measure(batch, run, record, number);
-    if (status) snprintf(zd_message_of(batch, number), (size_t)batch->message_size, "%s", zd_run_message(run));
+    if (status) snprintf(zd_message_of(batch, number), batch->message_size, "%s", zd_run_message(run));
 }
 
 zd_system zd_single_run_system(const zd_batch *batch, int64_t number)

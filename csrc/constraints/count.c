@@ -2,8 +2,8 @@
  * counted in the elimination order of a run, with fill, so that mechanisms can choose the cheapest coordinates. Blocks with a kernel of
  * their size are counted separately from the others, which take several times as long.
  */
-#include <string.h>
 
+#include "../linalg/small.h"
 #include "../point/sparse/weighted.h"
 #include "../zerodrift.h"
 #include "rank.h"
@@ -43,11 +43,11 @@ typedef struct place {      /* M, then its inverse, and C at one position, with 
 
 static place create_place(zd_arena *arena, const zd_system *system)
 {
-    const size_t m = (size_t)zd_constraints(system), nv = (size_t)system->nv;
+    const size_t m = zd_constraints(system), nv = system->nv;
     place it = {.v = zd_arena_doubles(arena, nv), .least = zd_arena_doubles(arena, m), .most = zd_arena_doubles(arena, m)};
-    it.terms.M = zd_arena_doubles(arena, (size_t)zd_size_of_M(system));
-    it.terms.C = zd_arena_doubles(arena, (size_t)zd_size_of_C(system));
-    it.terms.scratch = zd_arena_doubles(arena, (size_t)system->scratch);
+    it.terms.M = zd_arena_doubles(arena, zd_size_of_M(system));
+    it.terms.C = zd_arena_doubles(arena, zd_size_of_C(system));
+    it.terms.scratch = zd_arena_doubles(arena, system->scratch);
     it.terms.inputs = zd_create_inputs(arena, system);
     return it;
 }
@@ -56,7 +56,7 @@ static place create_place(zd_arena *arena, const zd_system *system)
 static int measure_pivots(zd_weighted *weighted, const zd_system *system, const double *p, place *at, zd_structure_work *work)
 {
     double *W = at->terms.M;
-    memset(at->v, 0, (size_t)system->nv * sizeof *at->v);
+    zd_clear(system->nv, at->v);
     const int status = system->evaluate(system->data, ZD_M | ZD_C | ZD_MOVED, 0, p, at->v, &at->terms);
     if (status) return status;
     for (int i = 0; i < system->nv; i++) W[i] = 1 / W[i];

@@ -38,7 +38,7 @@ static const double PARALLEL = 0x1p-10; /* the largest sine of the angle between
 
 zd_limits *zd_limits_create(zd_arena *arena, const zd_system *system)
 {
-    size_t nq = (size_t)system->nq, n = (size_t)system->nv, m = (size_t)zd_constraints(system);
+    size_t nq = system->nq, n = system->nv, m = zd_constraints(system);
     zd_limits self = {
         .distance = zd_arena_doubles(arena, m),
         .p = zd_arena_doubles(arena, nq),
@@ -79,7 +79,7 @@ static int add_ahead(zd_point *point, double s, double weight)
 static int differentiate(zd_point *point)
 {
     zd_limits *self = point->rank->selection->limits;
-    const size_t nq = (size_t)point->system->nq, n = (size_t)point->rank->n, m = (size_t)point->rank->m;
+    const size_t nq = point->system->nq, n = point->rank->n, m = point->rank->m;
     const int known = point->known;
     memcpy(self->p, point->p, nq * sizeof(double));
     memcpy(self->v, point->v, n * sizeof(double));
@@ -120,7 +120,7 @@ static void set_rates(const zd_point *point)
     for (int d = self->independent; d < m; d++) {
         int row = self->row[d];
         double *w = limits->w + row * n, *wdot = limits->wdot + row * n;
-        memset(wdot, 0, (size_t)n * sizeof(double));
+        zd_clear(n, wdot);
         if (row < self->mh) {
             zd_row_of_C own = zd_point_row(point, row);
             zd_row_expand(&own, n, w);
@@ -185,8 +185,8 @@ static void insert(zd_point *point, int wanted)
 {
     zd_selection *self = point->rank->selection;
     int n = self->n, before = point->holonomic, behind = self->independent - before;
-    memmove(self->C + (before + wanted) * n, self->C + before * n, (size_t)(behind * n) * sizeof(double));
-    memmove(self->row_at + before + wanted, self->row_at + before, (size_t)behind * sizeof(int));
+    memmove(self->C + (before + wanted) * n, self->C + before * n, behind * n * sizeof(double));
+    memmove(self->row_at + before + wanted, self->row_at + before, behind * sizeof(int));
     for (int j = 0; j < wanted; j++) {
         int row = self->row_at[before + j] = self->row[self->independent + j];
         for (int i = 0; i < n; i++) self->C[(before + j) * n + i] = limit(point, row, i);
@@ -221,7 +221,7 @@ static int solve(zd_point *point, int wanted, const double *force, const double 
     zd_selection *self = point->rank->selection;
     const int n = self->n, rows = self->independent + wanted, size = n + rows;
     double *K = self->limits->K, *y = self->limits->y, largest = 0;
-    memset(K, 0, (size_t)(size * size) * sizeof(double));
+    zd_clear(size * size, K);
     for (int i = 0; i < n; i++) largest = fmax(largest, fabs(zd_entry_of_M(point, i, i)) * point->unit[i] * point->unit[i]);
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++) K[i * size + j] = zd_entry_of_M(point, i, j) * point->unit[i] * point->unit[j] / largest;
@@ -250,7 +250,7 @@ static int find_curvature(zd_point *point, int wanted, const double *e, double *
     zd_selection *self = point->rank->selection;
     int status = zd_point_need(point, ZD_XI), rank = self->independent;
     for (int j = 0; j < wanted; j++) c[j] = zd_limits_own_part(self, self->row[rank + j], point->terms.xi, 1);
-    memcpy(self->limits->v, point->v, (size_t)self->n * sizeof(double));
+    zd_copy_all(self->n, point->v, self->limits->v);
     zd_point_move_velocity(point, e);
     if (!status) status = zd_point_need(point, ZD_XI);
     for (int j = 0; j < wanted; j++) c[j] = (c[j] - zd_limits_own_part(self, self->row[rank + j], point->terms.xi, 1)) / self->limits->speed;

@@ -24,7 +24,7 @@
 
 static zd_selection *create_selection(zd_arena *arena, const zd_system *system)
 {
-    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
+    size_t n = system->nv, m = zd_constraints(system);
     zd_selection self = {
         .n = (int)n,
         .m = (int)m,
@@ -51,7 +51,7 @@ static zd_selection *create_selection(zd_arena *arena, const zd_system *system)
 
 zd_rank *zd_rank_create(zd_arena *arena, const zd_system *system, int is_large)
 {
-    size_t m = (size_t)zd_constraints(system);
+    size_t m = zd_constraints(system);
     zd_rank self = {
         .n = system->nv,
         .m = (int)m,
@@ -276,7 +276,7 @@ void zd_rank_choose(zd_point *point, double tolerance)
 void zd_rank_use(zd_point *point, const int *row, int independent)
 {
     zd_selection *self = point->rank->selection;
-    memcpy(self->row, row, (size_t)self->m * sizeof *row);
+    memcpy(self->row, row, self->m * sizeof *row);
     self->is_expressed = 0;
     use_chosen(point, independent);
 }
@@ -292,7 +292,7 @@ void zd_rank_set_basis(const zd_point *point)
 {
     zd_selection *self = point->rank->selection;
     int n = self->n, m = self->m;
-    memset(self->R, 0, (size_t)(m * m) * sizeof(double));
+    zd_clear(m * m, self->R);
     for (int a = 0; a < self->independent; a++) {
         double *q = self->Q + a * n, *r = self->R + a * m;
         zd_row_of_C row = zd_point_row(point, self->row[a]);

@@ -125,7 +125,7 @@ static inline void zd_rank_find_multipliers(const zd_point *point)
 {
     zd_selection *self = point->rank ? point->rank->selection : NULL;
     if (!self || !self->are_awaited) return;
-    memcpy(self->lambda, self->lambda_r, (size_t)self->independent * sizeof *self->lambda);
+    zd_copy_all(self->independent, self->lambda_r, self->lambda);
     zd_rank_share_out(point, point->lambda);
     self->are_awaited = 0;
 }

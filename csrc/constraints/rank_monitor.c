@@ -25,47 +25,27 @@ static const double FAR = 0.9;              /* change: beyond, the row space may
 static const double DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL, ILL = ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;
 static const double AMPLE_RESIDUAL = 16 * ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED; /* squared, relative: rows may change by NEAR */
 
-zd_rank_monitor *zd_rank_monitor_create(zd_arena *arena, const zd_system *system, double *Q, double *G)
+zd_rank_monitor *zd_rank_monitor_create(zd_arena *arena, const zd_system *system, int selects, double *Q, double *G)
 {
-    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
-    const size_t dense = system->structure ? 0 : n;     /* for a declared structure, products of rows are used instead */
+    size_t n = system->nv, m = zd_constraints(system);
+    const int by_products = system->structure && !selects;      /* for a declared structure; rows of a selection are dense */
+    const size_t dense = by_products ? 0 : n;
     zd_rank_monitor self = {
         .m = (int)m,
-        .C = zd_arena_bytes(arena, (size_t)zd_size_of_C(system) * sizeof(float)),
+        .row = selects ? zd_arena_ints(arena, m) : NULL,
+        .C = zd_arena_bytes(arena, zd_size_of_C(system) * sizeof(float)),
         .weight = zd_arena_doubles(arena, m),
-        .share = system->structure ? zd_arena_doubles(arena, (size_t)zd_size_of_C(system)) : NULL,
+        .share = system->structure ? zd_arena_doubles(arena, zd_size_of_C(system)) : NULL,
         .close = {
             .n = (int)n,
-            .m = (int)m,
+            .m = selects ? 0 : (int)m,
             .Q = Q ? Q : zd_arena_doubles(arena, m * dense),
             .G = G ? G : zd_arena_doubles(arena, m * (dense ? m : 0)),
             .square = zd_arena_doubles(arena, m),
             .rows = zd_arena_doubles(arena, 4 * dense),
             .weighted = zd_arena_doubles(arena, dense > m ? dense : m),
         },
-        .identity = system->structure ? zd_arena_doubles(arena, (size_t)zd_size_of_M(system)) : NULL,
-    };
-    return zd_arena_copy(arena, &self, sizeof self);
-}
-
-/* The selected rows are dense, whatever the system declares. */
-zd_rank_monitor *zd_rank_monitor_create_selection(zd_arena *arena, const zd_system *system)
-{
-    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
-    zd_rank_monitor self = {
-        .m = (int)m,
-        .row = zd_arena_ints(arena, m),
-        .C = zd_arena_bytes(arena, (size_t)zd_size_of_C(system) * sizeof(float)),
-        .weight = zd_arena_doubles(arena, m),
-        .share = system->structure ? zd_arena_doubles(arena, (size_t)zd_size_of_C(system)) : NULL,
-        .close = {
-            .n = (int)n,
-            .Q = zd_arena_doubles(arena, m * n),
-            .G = zd_arena_doubles(arena, m * m),
-            .square = zd_arena_doubles(arena, m),
-            .rows = zd_arena_doubles(arena, 4 * n),
-            .weighted = zd_arena_doubles(arena, n > m ? n : m),
-        },
+        .identity = by_products ? zd_arena_doubles(arena, zd_size_of_M(system)) : NULL,
     };
     return zd_arena_copy(arena, &self, sizeof self);
 }
@@ -127,7 +107,7 @@ static void find_weights(zd_rank_monitor *self)
 {
     const int m = self->close.m;
     double *G = self->close.G, *g = self->close.weighted;
-    for (int k = 0; k < self->m; k++) self->weight[k] = 0;
+    zd_clear(self->m, self->weight);
     for (int i = 0; i < m; i++) {
         double *x = G + i * m, inverse_square = x[i];
         for (int j = 0; j < i; j++) g[j] = x[j], x[j] = 0;
@@ -170,18 +150,13 @@ static void store(zd_rank_monitor *self, const zd_point *point)
     for (int b = 0; point->layout && b < point->layout->blocks; b++) find_shares(self, point->layout, b);
 }
 
-static void *create_inverse(zd_arena *arena, const void *blocks)
-{
-    return zd_arena_doubles(arena, (size_t)((const zd_blocks *)blocks)->size);
-}
-
 static int need_blocks(zd_rank_monitor *self, const zd_point *point)
 {
     zd_store *store = point->rank->store;
     if (self->inverse) return 1;
     zd_set_identity(point->system, self->identity);
     if (!self->weighted) self->weighted = zd_weighted_create(store, point->layout);
-    if (self->weighted) self->inverse = zd_store_create(store, create_inverse, self->weighted->blocks);
+    if (self->weighted) self->inverse = zd_store_bytes(store, self->weighted->blocks->size * sizeof(double));
     return self->inverse != NULL;
 }
 
@@ -226,7 +201,7 @@ void zd_rank_monitor_keep_selection(zd_rank_monitor *self, zd_point *point)
     const zd_selection *selection = point->rank->selection;
     self->is_known = 0;
     self->close.m = selection->independent;
-    memcpy(self->row, selection->row, (size_t)self->m * sizeof *self->row);
+    memcpy(self->row, selection->row, self->m * sizeof *self->row);
     if (zd_orthogonalize(&self->close, point->C, DOUBTFUL).rows == self->close.m) store(self, point);
 }
 

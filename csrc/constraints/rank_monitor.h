@@ -18,11 +18,9 @@ struct zd_rank_monitor {
     double *inverse;        /* blocks of (C C^T)^-1 */
 };
 
-/* Allocates a monitor of all constraints. `Q` (m, n) and `G` (m, m) are work space, free during a full check; NULL: allocated here. For
- * a declared structure the rest is allocated from the rank's store at the first full check. */
-zd_rank_monitor *zd_rank_monitor_create(zd_arena *arena, const zd_system *system, double *Q, double *G);
-/* Allocates a monitor of a selection, if some constraints are redundant. */
-zd_rank_monitor *zd_rank_monitor_create_selection(zd_arena *arena, const zd_system *system);
+/* Allocates a monitor of all constraints; `selects`: of a selection, if some are redundant. `Q` (m, n) and `G` (m, m) are work space, free
+ * during a full check; NULL: allocated here. For a declared structure the rest is allocated from the rank's store at the first full check. */
+zd_rank_monitor *zd_rank_monitor_create(zd_arena *arena, const zd_system *system, int selects, double *Q, double *G);
 /* Stores the selected rows of C at the point, if they are well conditioned. */
 void zd_rank_monitor_keep_selection(zd_rank_monitor *self, zd_point *point);
 /* True if the stored rows have changed by less than NEAR; C is known at the point. */

@@ -139,7 +139,7 @@ static int classify(zd_point *point, double *sample)
 /* Classifies with temporary memory, which is needed only if constraints are dependent. */
 static int classify_dependent(zd_point *point)
 {
-    size_t n = (size_t)point->rank->n, m = (size_t)point->rank->m;
+    size_t n = point->rank->n, m = point->rank->m;
     double *sample = zd_allocate((2 * n + m * m + m) * sizeof(double));
     int status = sample ? classify(point, sample) : ZD_NO_MEMORY;
     zd_release(sample);

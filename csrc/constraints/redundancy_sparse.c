@@ -47,13 +47,13 @@ static void *create(zd_arena *arena, const void *of)
 {
     const zd_system *system = of;
     search self = {
-        .unit = zd_arena_doubles(arena, (size_t)system->nv),
-        .U = zd_arena_doubles(arena, (size_t)zd_size_of_M(system)),
-        .x = zd_arena_doubles(arena, (size_t)system->nv),
-        .change = zd_arena_doubles(arena, (size_t)system->nv),
-        .v0 = zd_arena_doubles(arena, (size_t)system->nv),
-        .v = zd_arena_doubles(arena, (size_t)system->nv),
-        .candidate = zd_arena_bytes(arena, (size_t)zd_constraints(system)),
+        .unit = zd_arena_doubles(arena, system->nv),
+        .U = zd_arena_doubles(arena, zd_size_of_M(system)),
+        .x = zd_arena_doubles(arena, system->nv),
+        .change = zd_arena_doubles(arena, system->nv),
+        .v0 = zd_arena_doubles(arena, system->nv),
+        .v = zd_arena_doubles(arena, system->nv),
+        .candidate = zd_arena_bytes(arena, zd_constraints(system)),
     };
     return zd_arena_copy(arena, &self, sizeof self);
 }
@@ -113,9 +113,9 @@ static void project(search *self, const zd_point *point, const double *rhs)
     double *y = self->weighted->blocks->x;
     const int n = point->system->nv;
     zd_weighted_times(self->weighted, point->terms.C, self->x, rhs, y);
-    zd_weighted_solve(self->weighted, y);
-    memset(self->change, 0, (size_t)n * sizeof *self->change);
-    zd_weighted_subtract_transposed(self->weighted, point->terms.C, y, self->change);
+    zd_blocks_solve(self->weighted->blocks, y);
+    zd_clear(n, self->change);
+    zd_row_groups_subtract(&self->weighted->row_groups, point->terms.C, NULL, y, self->change);
     for (int i = 0; i < n; i++) self->x[i] += self->unit[i] * self->unit[i] * self->change[i];
 }
 
@@ -152,8 +152,6 @@ static int restore_violated(search *self, const zd_point *point, int *holonomic)
     return count;
 }
 
-static void *create_note(zd_arena *arena, const void *system) { return zd_arena_bytes(arena, (size_t)zd_constraints(system)); }
-
 /* Check that accelerations that satisfy the other rows satisfy those set aside at this velocity; else point->failed_index is the first
  * that is violated. */
 static int agree(search *self, zd_point *point, const double *v, int *they_do)
@@ -161,7 +159,7 @@ static int agree(search *self, zd_point *point, const double *v, int *they_do)
     zd_point_move_velocity(point, v);
     int status = zd_point_need(point, ZD_XI);
     if (status) return status;
-    memset(self->x, 0, (size_t)point->system->nv * sizeof *self->x);
+    zd_clear(point->system->nv, self->x);
     for (int i = 0; i < PROJECTIONS; i++) project(self, point, point->terms.xi);
     const double of_xi = zd_max_scaled(zd_constraints(point->system), point->terms.xi, point->inverse_size), largest = fmax(of_xi, ZERO_XI);
     *they_do = 1;
@@ -190,7 +188,7 @@ static int classify(search *self, zd_point *point)
     const int has_velocity = can_move(self, n);
     int at_start = 1, at_any = 1;
     if (!(point->system->provides & ZD_XI)) return ZD_DONE;
-    memcpy(self->v0, point->v, (size_t)n * sizeof *self->v);
+    zd_copy_all(n, point->v, self->v0);
     for (int i = 0; i < n; i++) self->v[i] = self->v0[i] + speed * self->x[i];
     int status = agree(self, point, self->v0, &at_start);
     if (!status && at_start && has_velocity) status = agree(self, point, self->v, &at_any);
@@ -203,9 +201,9 @@ static int note(search *self, zd_point *point)
     zd_rank *rank = point->rank;
     int holonomic, count = restore_violated(self, point, &holonomic);
     if (!count) return ZD_DONE;
-    rank->left_out = zd_store_create(rank->store, create_note, point->system);
+    rank->left_out = zd_store_bytes(rank->store, zd_constraints(point->system));
     if (!rank->left_out) return ZD_NO_MEMORY;
-    memcpy(rank->left_out, self->candidate, (size_t)zd_constraints(point->system));
+    memcpy(rank->left_out, self->candidate, zd_constraints(point->system));
     rank->max_rank -= count;
     rank->max_rank_holonomic -= holonomic;
     return classify(self, point);

@@ -1,7 +1,5 @@
 #include "rank.h"
 
-#include <math.h>
-
 #include "../linalg/small.h"
 #include "../point/point.h"
 #include "limits.h"

@@ -3,6 +3,7 @@
  */
 #include <stdio.h>
 
+#include "../linalg/small.h"
 #include "../motion/motion.h"
 #include "../point/point.h"
 
@@ -35,7 +36,7 @@ static int clash(const void *given, char *message, size_t size)
 static void *create(zd_arena *arena, const zd_system *system, const void *given)
 {
     const gains *gain = given;
-    baumgarte self = {*gain, zd_arena_doubles(arena, (size_t)zd_constraints(system))};
+    baumgarte self = {*gain, zd_arena_doubles(arena, zd_constraints(system))};
     return zd_arena_copy(arena, &self, sizeof self);
 }
 
@@ -60,7 +61,7 @@ static int extra_size(const zd_system *system, const void *given)
 
 static void extra_rate(const zd_point *point, double *rate)
 {
-    for (int k = 0; k < point->system->mh; k++) rate[k] = point->terms.Phi[k];
+    zd_copy(point->system->mh, point->terms.Phi, rate);
 }
 
 const zd_correction zd_baumgarte_row = {

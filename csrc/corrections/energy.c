@@ -38,7 +38,7 @@ static int every(const void *given)
 static void *create(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
-    energy self = {zd_arena_doubles(arena, (size_t)system->nv), zd_arena_doubles(arena, (size_t)system->nv)};
+    energy self = {zd_arena_doubles(arena, system->nv), zd_arena_doubles(arena, system->nv)};
     return zd_arena_copy(arena, &self, sizeof self);
 }
 

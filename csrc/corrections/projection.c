@@ -8,8 +8,6 @@
  *
  * Where the iteration does not converge it is tried once more from its start, with steps shortened until each one helps.
  */
-#include <math.h>
-#include <string.h>
 
 #include "../constraints/limits.h"
 #include "../constraints/rank.h"
@@ -72,7 +70,7 @@ static zd_constraint_target target(const void *memory)
 static void *create(zd_arena *arena, const zd_system *system, const void *memory)
 {
     const given_projection *given = memory;
-    size_t nq = (size_t)system->nq, nv = (size_t)system->nv;
+    size_t nq = system->nq, nv = system->nv;
     int identity = (int)given->metric == IDENTITY;
     projection self = {
         .p = zd_arena_doubles(arena, nq),
@@ -80,9 +78,9 @@ static void *create(zd_arena *arena, const zd_system *system, const void *memory
         .landed = zd_arena_doubles(arena, nq),
         .from = zd_arena_doubles(arena, nq),
         .change = zd_arena_doubles(arena, nq),
-        .rhs = zd_arena_doubles(arena, (size_t)zd_constraints(system)),
+        .rhs = zd_arena_doubles(arena, zd_constraints(system)),
         .x = zd_arena_doubles(arena, nv),
-        .identity = identity ? zd_arena_doubles(arena, (size_t)zd_size_of_M(system)) : NULL,
+        .identity = identity ? zd_arena_doubles(arena, zd_size_of_M(system)) : NULL,
         .plain = identity ? zd_schur.create(arena, system, NULL) : NULL,
     };
     if (self.identity) zd_set_identity(system, self.identity);
@@ -132,9 +130,9 @@ static int improve_position(void *context)
     projection *self = problem->self;
     zd_point *point = problem->motion->point;
     const zd_system *system = point->system;
-    if (!problem->has_moved) zd_copy_all(system->nq, point->p, self->landed);
+    if (!problem->has_moved) zd_copy_few(system->nq, point->p, self->landed);
     problem->has_moved = 1;
-    zd_copy_all(system->mh, point->terms.Phi, self->rhs);
+    zd_copy_few(system->mh, point->terms.Phi, self->rhs);
     for (int k = system->mh; k < zd_constraints(system); k++) self->rhs[k] = 0;
     int status = solve(self, problem->motion, ZD_LIMIT_PHI, self->x);
     const int has_A = zd_has_A(system);
@@ -151,7 +149,7 @@ static int improve_and_save(void *context)
     position_problem *problem = context;
     projection *self = problem->self;
     const zd_point *point = problem->motion->point;
-    memcpy(self->from, point->p, (size_t)point->system->nq * sizeof(double));
+    zd_copy_all(point->system->nq, point->p, self->from);
     int status = improve_position(context);
     ZD_SIZED(zd_subtract, point->system->nq, point->p, self->from, self->change);
     return status;

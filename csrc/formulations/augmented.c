@@ -32,7 +32,7 @@ typedef struct augmented {
 static void *create_dense(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
-    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system), size = n + m;
+    size_t n = system->nv, m = zd_constraints(system), size = n + m;
     const int is_small = size <= ZD_UNROLLED;
     augmented self = {
         .n = (int)n,
@@ -86,7 +86,7 @@ static void fill_triangle(augmented *self, const double *M, const double *C)
         for (int j = i; j < n; j++) row[j] = M[i * n + j];
         for (int k = 0; k < m; k++) row[n + k] = self->scale[k] * C[k * n + i];
     }
-    memset(zd_triangle_row(size, self->G, n) + n, 0, zd_triangle((size_t)m) * sizeof *self->G);
+    memset(zd_triangle_row(size, self->G, n) + n, 0, zd_triangle(m) * sizeof *self->G);
 }
 
 /* Factors G; returns n + m, or the column that is linearly dependent. */
@@ -128,7 +128,7 @@ static void solve(void *memory, const double *force, const double *rhs, double *
     for (int k = 0; k < m; k++) b[n + k] = self->scale[k] * rhs[k];
     if (self->is_small) zd_lu_solve(n + m, self->G, self->order, b);    /* (8), (25) */
     else zd_symmetric_solve(n + m, self->G, self->order, b);
-    memcpy(x, b, (size_t)n * sizeof *x);
+    zd_copy_all(n, b, x);
     if (!lambda) return;
     for (int k = 0; k < m; k++) lambda[k] = self->scale[k] * b[n + k];
 }

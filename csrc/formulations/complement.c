@@ -2,7 +2,6 @@
 #include "complement.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "../constraints/limits.h"
 #include "../constraints/rank.h"
@@ -17,7 +16,7 @@ static const double WORSE = 1.1;
 
 zd_complement zd_complement_create(zd_arena *arena, const zd_system *system, double *workspace)
 {
-    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system), r = n - m;
+    size_t n = system->nv, m = zd_constraints(system), r = n - m;
     int own = (system->provides & ZD_COMPLEMENT) != 0;
     return (zd_complement){
         .n = (int)n,
@@ -70,7 +69,7 @@ static void fill_partitioned(zd_complement *self, const zd_point *point)
     int n = self->n, m = self->m, r = self->r;
     const double *C = self->C;
     self->largest = 0;
-    memset(self->D, 0, (size_t)(n * r) * sizeof(double));
+    zd_clear(n * r, self->D);
     for (int j = 0; j < r; j++) {
         int column = self->order[m + j];
         for (int k = 0; k < m; k++) self->work[k] = -C[k * n + column];
@@ -105,7 +104,7 @@ static int partition(zd_complement *self, zd_point *point)
 static int adopt(zd_complement *self, zd_point *point)
 {
     int n = self->n, m = self->m, r = self->r;
-    memcpy(self->D, point->terms.D, (size_t)(n * r) * sizeof(double));
+    zd_copy_all(n * r, point->terms.D, self->D);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) self->K[i * n + j] = i < m ? self->C[i * n + j] : self->D[j * r + i - m];
     point->failed_index = zd_lu_factor(n, self->K, self->pivots);
@@ -159,14 +158,14 @@ double zd_complement_steepest(const zd_complement *self)
 void zd_complement_particular(const zd_complement *self, const double *rhs, double *x)
 {
     int n = self->n, m = self->m;
-    memset(x, 0, (size_t)n * sizeof *x);
+    zd_clear(n, x);
     if (self->own) {
-        for (int k = 0; k < m; k++) x[k] = rhs[k];
+        zd_copy(m, rhs, x);
         zd_lu_solve(n, self->K, self->pivots, x);
         return;
     }
     double *w = self->work;
-    for (int k = 0; k < m; k++) w[k] = rhs[k];
+    zd_copy(m, rhs, w);
     zd_lu_solve(m, self->K, self->pivots, w);
     for (int k = 0; k < m; k++) x[self->order[k]] = w[k];
 }
@@ -177,14 +176,14 @@ void zd_complement_multipliers(const zd_complement *self, const double *reaction
     double *b = self->work;
     for (int i = 0; i < size; i++) b[i] = reaction[self->own ? i : self->order[i]];
     zd_lu_solve_transposed(size, self->K, self->pivots, b);
-    for (int k = 0; k < self->m; k++) lambda[k] = b[k];
+    zd_copy(self->m, b, lambda);
 }
 
 /* x with C x = -Phi_t, or with the right-hand side of the limits for constraints lost at a bifurcation. */
 static int enforce(const zd_complement *self, zd_point *point, double *x)
 {
     const double *Phi_t = point->terms.Phi_t;
-    memset(x, 0, (size_t)self->n * sizeof *x);
+    zd_clear(self->n, x);
     if (!Phi_t && !point->rank->lost) return ZD_DONE;
     double *all = point->rank->rhs, *rhs = point->rhs;
     for (int k = 0; k < zd_constraints(point->system); k++) all[k] = Phi_t ? -Phi_t[k] : 0;
@@ -247,7 +246,7 @@ int zd_complement_rate(zd_complement *self, zd_point *point, double *udot)
 void zd_complement_project(const zd_complement *self, const double *b, double *projected)
 {
     int n = self->n, r = self->r;
-    for (int j = 0; j < r; j++) projected[j] = 0;
+    zd_clear(r, projected);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < r; j++) projected[j] += self->D[i * r + j] * b[i];
 }

@@ -19,8 +19,8 @@ int zd_dependent_unpack(void *self, zd_point *point, double t, const double *y)
 int zd_dependent_pack(void *self, zd_point *point, double *y)
 {
     (void)self;
-    zd_copy_all(point->system->nq, point->p, y);
-    zd_copy_all(point->system->nv, point->v, y + point->system->nq);
+    zd_copy_few(point->system->nq, point->p, y);
+    zd_copy_few(point->system->nv, point->v, y + point->system->nq);
     return ZD_DONE;
 }
 
@@ -30,6 +30,6 @@ int zd_dependent_rate(void *self, zd_point *point, double *ydot)
     int status = zd_point_need_times_A(point, 0);
     if (status) return status;
     zd_point_rate(point, point->v, ydot);                               /* (1) */
-    zd_copy_all(point->system->nv, point->vdot, ydot + point->system->nq);
+    zd_copy_few(point->system->nv, point->vdot, ydot + point->system->nq);
     return ZD_DONE;
 }

@@ -25,7 +25,7 @@ static const double WORSE = 1.1;      /* growth of the derivative of p with resp
 
 zd_embedding zd_embedding_create(zd_arena *arena, const zd_system *system)
 {
-    size_t nq = (size_t)system->nq, nv = (size_t)system->nv, mh = (size_t)system->mh, k = nv - mh;
+    size_t nq = system->nq, nv = system->nv, mh = system->mh, k = nv - mh;
     /* Entries of p can be selected only if nq is nv. K is formed again after q is selected. */
     double *choice = zd_arena_doubles(arena, nv * (nv + (size_t)zd_constraints(system)));
     return (zd_embedding){
@@ -252,7 +252,7 @@ int zd_embedding_tangents(zd_embedding *self, zd_point *point, int width, double
     int status = factor(self, point);
     if (status) return status;
     for (int k = 0; k < self->k; k++) {
-        memset(self->delta, 0, (size_t)self->nv * sizeof(double));
+        zd_clear(self->nv, self->delta);
         self->delta[self->mh + k] = 1;
         zd_lu_solve(self->nv, self->K, self->pivots, self->delta);
         zd_point_rate(point, self->delta, T + k * width);       /* (18): Phi_p dp = 0 */
@@ -267,7 +267,7 @@ static double response(zd_embedding *self, const zd_point *point)
 {
     double largest = 0;
     for (int k = 0; k < self->k; k++) {
-        memset(self->delta, 0, (size_t)self->nv * sizeof(double));
+        zd_clear(self->nv, self->delta);
         self->delta[self->mh + k] = 1;
         zd_lu_solve(self->nv, self->K, self->pivots, self->delta);
         largest = fmax(largest, zd_max_scaled(self->nv, self->delta, point->inverse_unit) / inverse_unit(self, point, k));
@@ -308,7 +308,7 @@ static int choose_anew(zd_embedding *self, zd_point *point, int *changed)
     const zd_system *system = point->system;
     int status = need_rows(self, point);
     if (status) return status;
-    if (self->embed && system->independent) memcpy(self->index, system->independent, (size_t)self->k * sizeof(int));
+    if (self->embed && system->independent) memcpy(self->index, system->independent, self->k * sizeof(int));
     else status = has_increments(self) ? choose_increments(self, point) : choose(self, point);
     const int was_chosen = self->chosen;
     self->chosen = 0;       /* K is lost */

@@ -12,7 +12,6 @@
 #include "embedding.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "../linalg/small.h"
 #include "../point/point.h"
@@ -23,7 +22,7 @@ static const double REACH = 0.5;    /* cos(a / 2) of the largest rotation angle 
 zd_increments zd_increments_create(zd_arena *arena, const zd_system *system)
 {
     if (!system->quaternions && !system->followers) return (zd_increments){.nq = 0};
-    size_t nq = (size_t)system->nq, nv = (size_t)system->nv;
+    size_t nq = system->nq, nv = system->nv;
     return (zd_increments){
         .nq = (int)nq,
         .nv = (int)nv,
@@ -42,7 +41,7 @@ static void weigh(zd_increments *self, const zd_point *point)
     for (int j = 0; j < nv; j++)
         for (int i = 0; i < leading; i++)
             self->inverse[j * nq + i] = point->inverse_unit_p[i] * zd_entry_of_A(point, i, j) * point->unit[j];
-    for (int j = 0; j < nv; j++) memset(self->inverse + j * nq + leading, 0, (size_t)(nq - leading) * sizeof *self->inverse);
+    for (int j = 0; j < nv; j++) zd_clear(nq - leading, self->inverse + j * nq + leading);
     for (int j = 0; j < nv; j++)
         for (int l = 0; l <= j; l++)
             self->gram[j * nv + l] = self->gram[l * nv + j] = zd_dot(nq, self->inverse + j * nq, self->inverse + l * nq);
@@ -70,7 +69,7 @@ int zd_increments_begin(zd_increments *self, zd_point *point)
 {
     int status = zd_point_need(point, ZD_A);
     if (status) return status;
-    memcpy(self->base, point->p, (size_t)self->nq * sizeof(double));
+    zd_copy_all(self->nq, point->p, self->base);
     weigh(self, point);
     point->failed_index = zd_cholesky(self->nv, self->gram, self->gram);
     if (point->failed_index < self->nv) return ZD_SINGULAR;
@@ -104,7 +103,7 @@ double zd_increments_rate(const zd_increments *self, const double *pdot, int j)
 void zd_increments_row(const zd_increments *self, const zd_point *point, int j, double *row)
 {
     const double *inverse = self->inverse + j * self->nq;
-    memset(row, 0, (size_t)self->nv * sizeof *row);
+    zd_clear(self->nv, row);
     for (int i = 0; i < self->nq; i++)
         for (int l = 0; l < self->nv; l++) row[l] += inverse[i] * zd_entry_of_A(point, i, l);
 }

@@ -31,7 +31,7 @@ static void *create(zd_arena *arena, const zd_system *system, const void *given)
     independent self = {
         .minimal = zd_minimal_create(arena, system, zd_embedding_workspace(&embedding)),
         .embedding = embedding,
-        .pdot = zd_arena_doubles(arena, (size_t)system->nq),
+        .pdot = zd_arena_doubles(arena, system->nq),
     };
     return zd_arena_copy(arena, &self, sizeof self);
 }

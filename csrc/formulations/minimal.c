@@ -7,7 +7,6 @@
 #include "minimal.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "../constraints/limits.h"
 #include "../constraints/rank.h"
@@ -20,7 +19,7 @@ static const double NEARLY = 0x1p-30;   /* change relative to the speed that is 
 
 zd_minimal zd_minimal_create(zd_arena *arena, const zd_system *system, double *workspace)
 {
-    size_t n = (size_t)system->nv, r = n - (size_t)zd_constraints(system);
+    size_t n = system->nv, r = n - (size_t)zd_constraints(system);
     return (zd_minimal){
         .complement = zd_complement_create(arena, system, workspace),
         .memory = zd_create_dense(arena, system, n * n),
@@ -135,7 +134,7 @@ void zd_minimal_note_lead_time(zd_minimal *self, const zd_point *point, double t
 int zd_minimal_unpack(zd_minimal *self, zd_point *point, const double *u)
 {
     const int size = self->many ? self->many->size : self->size;
-    memcpy(self->many ? self->many->u : self->u, u, (size_t)size * sizeof *u);
+    zd_copy_all(size, u, self->many ? self->many->u : self->u);
     return zd_minimal_update(self, point);
 }
 
@@ -178,7 +177,7 @@ int zd_minimal_tangents(zd_minimal *self, zd_point *point, const double *Psi_alo
         zd_complement_particular(complement, point->rhs, T + nq);           /* (14): C dv = -Psi_p dp, with du = 0, */
     }
     for (int j = 0; j < self->size; j++, T += nq + n) {
-        memset(T, 0, (size_t)nq * sizeof *T);
+        zd_clear(nq, T);
         for (int i = 0; i < n; i++) T[nq + i] = complement->D[i * complement->r + j];       /* and dv = D du */
     }
     return ZD_DONE;

@@ -1,7 +1,7 @@
 /* (17): dependent coordinates p and independent velocities u. The velocities satisfy (5) by v = D u; only (3) is violated.
  * Near a bifurcation, where D loses digits, a run integrates (p, v) instead: state/variables.c. */
-#include <string.h>
 
+#include "../linalg/small.h"
 #include "../point/point.h"
 #include "formulation.h"
 #include "minimal.h"
@@ -10,7 +10,7 @@ static void *create(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
     const int are_many = zd_rank_is_of_many(system);
-    double *workspace = are_many ? NULL : zd_arena_doubles(arena, (size_t)(zd_constraints(system) * system->nv));
+    double *workspace = are_many ? NULL : zd_arena_doubles(arena, zd_constraints(system) * system->nv);
     zd_minimal self = are_many ? zd_minimal_create_many(arena, system) : zd_minimal_create(arena, system, workspace);
     return zd_arena_copy(arena, &self, sizeof self);
 }
@@ -29,13 +29,13 @@ static int unpack(void *self, zd_point *point, double t, const double *y)
 
 static int pack(void *self, zd_point *point, double *y)
 {
-    memcpy(y, point->p, (size_t)point->system->nq * sizeof *y);
+    zd_copy_all(point->system->nq, point->p, y);
     return zd_minimal_pack(self, point, y + point->system->nq);
 }
 
 static int express(void *self, zd_point *point, double *y)
 {
-    memcpy(y, point->p, (size_t)point->system->nq * sizeof *y);
+    zd_copy_all(point->system->nq, point->p, y);
     return zd_minimal_express(self, point, y + point->system->nq);
 }
 
@@ -67,7 +67,7 @@ static void pick(const void *memory, const zd_point *point, const double *pdot, 
 {
     const zd_minimal *self = memory;
     const int nq = point->system->nq;
-    memcpy(ydot, pdot, (size_t)nq * sizeof *ydot);
+    zd_copy_all(nq, pdot, ydot);
     zd_complement_pick(&self->complement, vdot, ydot + nq);
 }
 

@@ -7,7 +7,6 @@
  * H^T [.; lambda] = f - d - M vdot.
  */
 #include <math.h>
-#include <string.h>
 
 #include "../linalg/dense.h"
 #include "../linalg/small.h"
@@ -34,7 +33,7 @@ static void *create(zd_arena *arena, const zd_system *system, const void *given)
         nullspace self = {.many = zd_structured_create(arena, system)};
         return zd_arena_copy(arena, &self, sizeof self);
     }
-    size_t n = (size_t)system->nv;
+    size_t n = system->nv;
     double *H = zd_arena_doubles(arena, n * n);      /* made once D is known */
     nullspace self = {
         .complement = zd_complement_create(arena, system, H),
@@ -67,7 +66,7 @@ static void fill(nullspace *self, const double *M, const double *C)
             for (int i = 0; i < n; i++) sum += complement->D[i * r + a] * M[i * n + j];
             self->H[a * n + j] = sum;
         }
-    if (complement->m) memcpy(self->H + r * n, C, (size_t)(complement->m * n) * sizeof *C);
+    if (complement->m) zd_copy_all(complement->m * n, C, self->H + r * n);
     for (int i = 0; i < n; i++) scale_row(n, self->H + i * n, self->scale + i);
 }
 

@@ -47,7 +47,7 @@ typedef struct schur {
 
 static void create_matrices(zd_arena *arena, schur *self)
 {
-    size_t n = (size_t)self->n, m = (size_t)self->most;
+    size_t n = self->n, m = self->most;
     self->L = zd_arena_doubles(arena, n * n);
     self->Q = zd_arena_doubles(arena, m * n);
     self->G = zd_arena_doubles(arena, m * m);
@@ -63,7 +63,7 @@ static void *create(zd_arena *arena, const zd_system *system, const void *given)
     schur self = {.n = system->nv, .m = zd_constraints(system), .most = zd_constraints(system), .many = zd_structured_create(arena, system)};
     if (!zd_rank_is_of_many(system)) {
         self.blocks = zd_schur_blocks_create(arena, system);
-        self.dense_C = zd_create_dense(arena, system, (size_t)(self.most * self.n));
+        self.dense_C = zd_create_dense(arena, system, self.most * self.n);
         create_matrices(arena, &self);
     }
     return zd_arena_copy(arena, &self, sizeof self);

@@ -1,11 +1,12 @@
 #include "integrator.h"
 
 #include <math.h>
-#include <string.h>
+
+#include "../linalg/small.h"
 
 zd_differences zd_differences_create(zd_arena *arena, int size)
 {
-    const size_t n = (size_t)size;
+    const size_t n = size;
     return (zd_differences){
         .size = size,
         .scale = zd_arena_doubles(arena, n),
@@ -17,7 +18,7 @@ zd_differences zd_differences_create(zd_arena *arena, int size)
 void zd_differences_resize(zd_differences *self, int size)
 {
     self->size = size;
-    memset(self->scale, 0, (size_t)size * sizeof(double));
+    zd_clear(size, self->scale);
 }
 
 /* Increment of y_i for a difference: about the square root of the rounding error of its size, also if y_i is zero. */

@@ -6,7 +6,6 @@
  * The errors of the four z_n have powers of 1/n^2 alone, and the weights remove the first three: the order is eight. What is added
  * up is z_n - y0, as the weights would multiply the rounding of y0.
  */
-#include <string.h>
 
 #include "../linalg/small.h"
 #include "integrator.h"
@@ -26,7 +25,7 @@ typedef struct extrapolation {
 static void *create(zd_arena *arena, const void *table, zd_motion *motion, double *y, int size, const void *given)
 {
     (void)table, (void)motion, (void)y, (void)given;
-    size_t n = (size_t)size;
+    size_t n = size;
     extrapolation self = {
         .size = size,
         .f0 = zd_arena_doubles(arena, n),
@@ -60,7 +59,7 @@ static int step(void *memory, const zd_rate *rate, double t, double h, double *y
     (void)statistics;
     extrapolation *self = memory;
     int status = rate->evaluate(rate->context, t, y, self->f0);
-    memset(self->sum, 0, (size_t)self->size * sizeof *self->sum);
+    zd_clear(self->size, self->sum);
     for (int k = 0; !status && k < SEQUENCES; k++) {
         status = make_parts(self, rate, t, h, y, parts[k]);
         zd_add_scaled(self->size, self->sum, weight[k], self->change[0]);

@@ -64,7 +64,7 @@ static void *create(zd_arena *arena, const void *table, zd_motion *motion, doubl
 {
     (void)table, (void)given;
     const zd_system *system = &motion->system;
-    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
+    size_t n = system->nv, m = zd_constraints(system);
     rattle self = {
         .n = (int)n,
         .m = (int)m,
@@ -83,12 +83,12 @@ static void *create(zd_arena *arena, const void *table, zd_motion *motion, doubl
         .start = zd_arena_doubles(arena, n),
         .mean = zd_arena_doubles(arena, n),
         .F = zd_arena_doubles(arena, n),
-        .Mdot = zd_arena_doubles(arena, (size_t)zd_size_of_M(system)),
+        .Mdot = zd_arena_doubles(arena, zd_size_of_M(system)),
         .stored = zd_size_of_M(system),
         .product = zd_arena_doubles(arena, n),
         .rhs = zd_arena_doubles(arena, m),
-        .rate0 = zd_arena_doubles(arena, (size_t)size),
-        .rate1 = zd_arena_doubles(arena, (size_t)size),
+        .rate0 = zd_arena_doubles(arena, size),
+        .rate1 = zd_arena_doubles(arena, size),
         .motion = motion,
         .state = y,
     };
@@ -117,7 +117,7 @@ static int differentiate_mass(rattle *self, double t, const double *p)
     static const int place[4] = {2, 1, -1, -2};
     int n = self->n;
     double s = RESOLUTION * self->h;
-    memset(self->Mdot, 0, (size_t)self->stored * sizeof(double));
+    zd_clear(self->stored, self->Mdot);
     for (int k = 0; k < 4; k++) {
         for (int i = 0; i < n; i++) self->moved[i] = p[i] + place[k] * s * self->w[i];
         zd_point_move(self->probe, t + place[k] * s, self->moved, self->w);
@@ -205,7 +205,7 @@ static int find_positions(rattle *self)
     for (int i = 0; i < self->n; i++) self->w[i] = self->v0[i] + self->h / 2 * motion->point->vdot[i];
     self->before = INFINITY;
     self->learnt = 0;
-    memset(self->s, 0, (size_t)self->n * sizeof(double));      /* no change yet to learn from */
+    zd_clear(self->n, self->s);      /* no change yet to learn from */
     status = zd_newton_solve(&newton, self, &iterations, &left);
     motion->statistics.implicit_iterations += iterations;
     return status == ZD_NO_CONVERGENCE ? ZD_NO_STEP : status;
@@ -238,7 +238,7 @@ static int notice_variation(rattle *self, int *varies)
 {
     zd_point_move(self->probe, self->t1, self->p, self->w);
     int status = zd_point_need(self->probe, ZD_M);
-    *varies = memcmp(self->probe->terms.M, self->motion->point->terms.M, (size_t)self->stored * sizeof(double)) != 0;
+    *varies = memcmp(self->probe->terms.M, self->motion->point->terms.M, self->stored * sizeof(double)) != 0;
     return status;
 }
 
@@ -265,8 +265,8 @@ static int step_of_motion(void *memory, zd_motion *motion, double t, double h, d
     status = motion->formulation->unpack(motion->solver, motion->point, t, y);
     if (!status && along) status = zd_motion_rate(motion, t, y, self->rate0);
     if (status) return status;
-    memcpy(self->p0, motion->point->p, (size_t)self->n * sizeof(double));
-    memcpy(self->v0, motion->point->v, (size_t)self->n * sizeof(double));
+    zd_copy_all(self->n, motion->point->p, self->p0);
+    zd_copy_all(self->n, motion->point->v, self->v0);
     status = solve_step(self);
     if (status || !along) return status;
     status = zd_motion_rate(motion, self->t1, y, self->rate1);

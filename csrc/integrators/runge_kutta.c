@@ -14,10 +14,10 @@ void *zd_runge_kutta_create(zd_arena *arena, const void *table, zd_motion *motio
     zd_runge_kutta self = {
         .size = size,
         .k = zd_arena_doubles(arena, ((size_t)(tableau->stages + tableau->more) + estimates) * (size_t)size),
-        .stage = zd_arena_doubles(arena, (size_t)size),
-        .change = tableau->coefficients ? zd_arena_doubles(arena, (size_t)size) : NULL,
+        .stage = zd_arena_doubles(arena, size),
+        .change = tableau->coefficients ? zd_arena_doubles(arena, size) : NULL,
     };
-    self.end = estimates ? zd_arena_doubles(arena, (size_t)size) : self.stage;       /* estimates want both */
+    self.end = estimates ? zd_arena_doubles(arena, size) : self.stage;       /* estimates want both */
     return zd_arena_copy(arena, &self, sizeof self);
 }
 

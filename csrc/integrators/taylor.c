@@ -57,13 +57,13 @@ static void *create(zd_arena *arena, const void *table, zd_motion *motion, doubl
     (void)table, (void)y;
     const zd_system *system = &motion->system;
     const int order = (int)fmax(((const given_taylor *)given)->order, MIN_ORDER);
-    const size_t orders = (size_t)order + 1, whole = (size_t)(system->nq + system->nv);
+    const size_t orders = (size_t)order + 1, whole = system->nq + system->nv;
     taylor self = {
         .system = system,
         .size = size,
         .order = order,
         .highest = order,
-        .y0 = zd_arena_doubles(arena, (size_t)size),
+        .y0 = zd_arena_doubles(arena, size),
         .start = zd_arena_doubles(arena, whole),
         .end = zd_arena_doubles(arena, whole),
         .own_scale = zd_arena_doubles(arena, whole + 1),
@@ -94,7 +94,7 @@ static int has_work(const taylor *self)
 static int find_series(taylor *self, const zd_rate *rate, double t, const double *y)
 {
     const zd_system *system = rate->system;
-    const size_t bytes = (size_t)rate->size * sizeof *y;
+    const size_t bytes = rate->size * sizeof *y;
     const int converts = rate->expand != NULL;      /* a state repeated on another evaluation path may be another set of variables */
     if (self->is_known && t == self->t0 && converts == self->converts && !memcmp(y, self->y0, bytes)) return ZD_DONE;
     self->is_known = 0;
@@ -211,8 +211,8 @@ static int rates_at(taylor *self, const zd_rate *rate, double t1, const double *
     int status = system->series->evaluate(system->data, rate->inputs, 1, t1, self->end, self->end + nq, series, series + 2 * nq,
                                           is_forced ? work : NULL, self->scratch);
     if (status) return status;
-    memmove(series, series + nq, (size_t)nq * sizeof *series);
-    memmove(series + nq, series + 2 * nq + nv, (size_t)nv * sizeof *series);
+    memmove(series, series + nq, nq * sizeof *series);
+    memmove(series + nq, series + 2 * nq + nv, nv * sizeof *series);
     if (is_forced) series[n - 1] = work[1];
     return ZD_DONE;
 }

@@ -53,7 +53,7 @@ static int suits(const zd_system *system)
 static void *create(zd_arena *arena, const void *table, zd_motion *motion, double *y, int size, const void *given)
 {
     (void)table, (void)y, (void)given;
-    size_t n = (size_t)size;
+    size_t n = size;
     trapezoidal self = {
         .size = size,
         .y0 = zd_arena_doubles(arena, n),
@@ -192,7 +192,7 @@ static int step(void *memory, const zd_rate *rate, double t, double h, double *y
 {
     trapezoidal *self = memory;
     resize(self, rate->size);
-    size_t bytes = (size_t)self->size * sizeof *y;
+    size_t bytes = self->size * sizeof *y;
     self->t1 = t + h;
     self->h = h;
     memcpy(self->y0, y, bytes);

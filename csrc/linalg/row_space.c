@@ -10,7 +10,7 @@ enum { TOGETHER = 4 };
 
 zd_row_space zd_row_space_create(zd_arena *arena, int most, int n)
 {
-    const size_t rows = (size_t)most, columns = (size_t)n;
+    const size_t rows = most, columns = n;
     return (zd_row_space){
         .n = n, .most = most, .A = zd_arena_doubles(arena, rows * columns), .diagonal = zd_arena_doubles(arena, columns),
         .factor = zd_arena_doubles(arena, columns), .norm = zd_arena_doubles(arena, rows), .order = zd_arena_ints(arena, rows),
@@ -88,7 +88,7 @@ void zd_row_space_prepare(zd_row_space *self, int rows, double share, double lea
 {
     const int n = self->n;
     double first = INFINITY, last = 0;      /* smallest and largest reciprocal of a pivot */
-    if (rows == n && zd_lu_factor(n, memcpy(self->T, self->A, (size_t)(n * n) * sizeof *self->T), self->order) == n)
+    if (rows == n && zd_lu_factor(n, memcpy(self->T, self->A, n * n * sizeof *self->T), self->order) == n)
         for (int k = 0; k < n; k++) {
             const double size = fabs(self->T[k * n + k]);
             if (size < first) first = size;
@@ -144,7 +144,7 @@ static void solve_trapezoid(zd_row_space *self, double *c, double *y)
 void zd_row_space_solve(zd_row_space *self, const double *right, double *x)
 {
     if (self->is_square) {
-        zd_lu_solve(self->n, self->T, self->order, memcpy(x, right, (size_t)self->n * sizeof *x));
+        zd_lu_solve(self->n, self->T, self->order, memcpy(x, right, self->n * sizeof *x));
         return;
     }
     for (int i = 0; i < self->rows; i++) self->c[i] = right[self->order[i]];

@@ -45,11 +45,22 @@ ZD_INLINE void zd_copy(const int n, const double *from, double *to)
     for (int i = 0; i < n; i++) to[i] = from[i];
 }
 
-/* Copy of any size, large ones by memcpy() */
+/* Copies of an array; and of one that is often short, in a step. */
 ZD_INLINE void zd_copy_all(int n, const double *from, double *to)
 {
-    if (n > ZD_UNROLLED) memcpy(to, from, (size_t)n * sizeof *to);
+    if (n > 0) memcpy(to, from, n * sizeof *to);        /* an empty array may be NULL */
+}
+
+ZD_INLINE void zd_copy_few(int n, const double *from, double *to)
+{
+    if (n > ZD_UNROLLED) zd_copy_all(n, from, to);
     else ZD_SIZED(zd_copy, n, from, to);
+}
+
+/* x <- 0 */
+ZD_INLINE void zd_clear(int n, double *x)
+{
+    if (n > 0) memset(x, 0, n * sizeof *x);
 }
 
 /* Two neighbours in one store, or in one load. A processor hands on what it has just stored to loads of that or of a part of it; one of

@@ -101,7 +101,7 @@ static void eliminate_two(int n, double *A, int k)
 
 int zd_symmetric_factor(int n, double *A, int *order)
 {
-    const double negligible = n * 0x1p-52 * zd_largest((int)zd_triangle((size_t)n), A);
+    const double negligible = n * 0x1p-52 * zd_largest((int)zd_triangle(n), A);
     for (int k = 0; k < n;) {
         const pivot found = find_pivot(n, A, k, negligible);
         if (!found.size) return k;

@@ -11,14 +11,14 @@ static zd_rank *create_rank(zd_motion *motion, zd_arena *arena, const zd_system 
     const zd_system *system = &motion->system;
     const int is_large = zd_has_many_constraints(formulation, system), is_dense = !system->structure;
     zd_rank *rank = zd_rank_create(arena, system, is_large);
-    double *rhs = formulation->update ? zd_arena_doubles(arena, (size_t)zd_constraints(system)) : NULL;
+    double *rhs = formulation->update ? zd_arena_doubles(arena, zd_constraints(system)) : NULL;
     const int is_full = zd_constraints(independent) == zd_constraints(system);
     const int are_few = is_dense && zd_constraints(system) <= ZD_FEW_CONSTRAINTS;
     /* The selection's work space is free while a full check finds whether one is needed. */
     double counted, *Q = &counted, *G = &counted;
     if (rank && rank->selection) Q = rank->selection->Q, G = rank->selection->G;
-    zd_rank_monitor *monitor = is_large || are_few ? NULL : zd_rank_monitor_create(arena, system, Q, G);
-    zd_rank_monitor *kept = is_large || is_full ? NULL : zd_rank_monitor_create_selection(arena, system);
+    zd_rank_monitor *monitor = is_large || are_few ? NULL : zd_rank_monitor_create(arena, system, 0, Q, G);
+    zd_rank_monitor *kept = is_large || is_full ? NULL : zd_rank_monitor_create(arena, system, 1, NULL, NULL);
     zd_limits *limits = is_large || on_singular == ZD_STOP ? NULL : zd_limits_create(arena, system);
     if (!rank) return NULL;
     rank->monitor = monitor;
@@ -53,7 +53,7 @@ void zd_motion_create(zd_motion *motion, zd_arena *arena, const zd_system *syste
         .memory_of_chosen = zd_span_since(arena, used),
     };
     motion->point = zd_point_create(arena, &motion->system, &motion->statistics);
-    motion->scratch_elsewhere = zd_arena_doubles(arena, (size_t)system->scratch);
+    motion->scratch_elsewhere = zd_arena_doubles(arena, system->scratch);
     zd_rank *rank = create_rank(motion, arena, independent, on_singular);
     if (motion->point) {
         motion->point->rank = rank;

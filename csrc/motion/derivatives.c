@@ -16,14 +16,14 @@ static const double AGREE = 1e-10;      /* difference of the orders relative to 
 
 zd_residual_state zd_residual_state_create(zd_arena *arena, const zd_system *system, zd_statistics *statistics, enum zd_accuracy accuracy)
 {
-    const size_t width = (size_t)(system->nq + system->nv + 2 * zd_constraints(system) + 1);
+    const size_t width = system->nq + system->nv + 2 * zd_constraints(system) + 1;
     return (zd_residual_state){
         .varied = zd_point_create(arena, system, statistics),
         .here = zd_arena_doubles(arena, width),
         .there = zd_arena_doubles(arena, width),
-        .x = zd_arena_doubles(arena, (size_t)(system->nq + system->nv)),
+        .x = zd_arena_doubles(arena, system->nq + system->nv),
         .sums = accuracy == ZD_ACCURATE ? zd_arena_doubles(arena, ORDERS * width) : NULL,
-        .scratch = system->residuals ? zd_arena_doubles(arena, (size_t)system->residuals->scratch) : NULL,
+        .scratch = system->residuals ? zd_arena_doubles(arena, system->residuals->scratch) : NULL,
     };
 }
 
@@ -73,7 +73,7 @@ static void write_dynamics(const zd_residual_state *self, const zd_point *point,
         return;
     }
     if (self->moves) zd_times_M(point, point->terms.M, self->vdot, r);
-    else memset(r, 0, (size_t)n * sizeof *r);
+    else zd_clear(n, r);
     for (int i = 0; i < n; i++) r[i] -= point->force[i];
     for (int k = 0; k < m; k++) {
         const zd_row_of_C row = zd_point_row(point, k);
@@ -174,14 +174,14 @@ static int add_central(zd_residual_state *self, const zd_direction *direction, d
 static int difference_centrally(zd_residual_state *self, const zd_direction *direction, double step, double *to)
 {
     const double h = CENTRAL_STEP * step;
-    memset(to, 0, (size_t)self->width * sizeof *to);
+    zd_clear(self->width, to);
     return add_central(self, direction, h, 1, &(double){1 / (2 * h)}, to);
 }
 
 static int sum_orders(zd_residual_state *self, const zd_direction *direction, double h)
 {
     int status = ZD_DONE;
-    memset(self->sums, 0, (size_t)(ORDERS * self->width) * sizeof *self->sums);
+    zd_clear(ORDERS * self->width, self->sums);
     for (int k = 0; k < POINTS && !status; k++) {
         double weight[ORDERS];
         for (int order = 0; order < ORDERS; order++) weight[order] = WEIGHT[order][k] / h;
@@ -207,7 +207,7 @@ static double largest_disagreement(const zd_residual_state *self)
 static int difference_accurately(zd_residual_state *self, const zd_direction *direction, double step, double *to)
 {
     double error = INFINITY;
-    const size_t bytes = (size_t)self->width * sizeof *to;
+    const size_t bytes = self->width * sizeof *to;
     for (int k = 0; k < STEPS; k++) {
         int status = sum_orders(self, direction, STEP[k] * step);
         if (status) return status;

@@ -24,8 +24,8 @@ static size_t larger(size_t a, size_t b) { return a > b ? a : b; }
 void zd_motion_create_jacobian(zd_motion *motion, zd_arena *arena)
 {
     const zd_system *system = &motion->system;
-    const size_t nq = (size_t)system->nq, nv = (size_t)system->nv, m = (size_t)zd_constraints(system), width = nq + nv;
-    const size_t size = (size_t)motion->formulation_size;
+    const size_t nq = system->nq, nv = system->nv, m = zd_constraints(system), width = nq + nv;
+    const size_t size = motion->formulation_size;
     const int has_tangents = motion->formulation->tangents_of_p != NULL;
     const int has_own = has_tangents && system->jacobian && system->jacobian->constraints;
     motion->chain = (zd_chain){
@@ -35,7 +35,7 @@ void zd_motion_create_jacobian(zd_motion *motion, zd_arena *arena)
         .right = zd_arena_doubles(arena, nv + m),
         .lambda_along = zd_arena_doubles(arena, m),
         .unit = zd_arena_doubles(arena, width),
-        .scratch = system->jacobian ? zd_arena_doubles(arena, (size_t)system->jacobian->scratch) : NULL,
+        .scratch = system->jacobian ? zd_arena_doubles(arena, system->jacobian->scratch) : NULL,
         .J = has_own ? zd_arena_doubles(arena, (width + 1) * width) : NULL,
         .Psi_p = has_own ? zd_arena_doubles(arena, m * nq + 1) : NULL,
         .Psi_along = has_tangents ? zd_arena_doubles(arena, size * m) : NULL,
@@ -64,7 +64,7 @@ static void find_multipliers(zd_motion *motion)
     for (int a = 0; a < point->rows; a++) selection->rhs[a] = point->terms.xi ? point->terms.xi[selection->row_at[a]] : 0;
     motion->statistics.solves++;
     motion->formulation->solve(motion->solver, point->force, selection->rhs, chain->right, selection->lambda);
-    memset(chain->lambda, 0, (size_t)m * sizeof(double));
+    zd_clear(m, chain->lambda);
     for (int a = 0; a < point->rows; a++) chain->lambda[selection->row_at[a]] = selection->lambda[a];
 }
 
@@ -189,7 +189,7 @@ static void widen(int rows, int columns, double *J)
 {
     if (rows == columns) return;
     for (int i = rows - 1; i >= 0; i--) {
-        memmove(J + i * rows, J + i * columns, (size_t)columns * sizeof *J);
+        memmove(J + i * rows, J + i * columns, columns * sizeof *J);
         for (int j = columns; j < rows; j++) J[i * rows + j] = 0;
     }
 }
@@ -239,7 +239,7 @@ static int take_by_residuals(zd_motion *motion, double t, const double *y, const
     int status = move_there(motion, t, y);
     if (!status && updates) status = find_tangents(motion, increment);
     if (!status) begin(motion);
-    memset(chain->unit, 0, (size_t)width * sizeof(double));
+    zd_clear(width, chain->unit);
     for (int j = 0; j < motion->formulation_size && !status; j++) {
         if (!updates) chain->unit[j] = 1;
         status = differentiate(motion, updates ? chain->T + j * width : chain->unit, increment[j]);

@@ -44,10 +44,10 @@ static void solve_reduced(const zd_point *point, const zd_formulation *formulati
     if (!lambda) return;
     selection->are_awaited = !selection->is_expressed;
     if (selection->are_awaited) {
-        memcpy(selection->lambda_r, selection->lambda, (size_t)selection->independent * sizeof *selection->lambda);
+        zd_copy_all(selection->independent, selection->lambda, selection->lambda_r);
         return;
     }
-    memmove(selection->lambda + holonomic, selection->lambda + point->holonomic, (size_t)others * sizeof(double));
+    memmove(selection->lambda + holonomic, selection->lambda + point->holonomic, others * sizeof(double));
     zd_rank_share_out(point, lambda);
 }
 
@@ -89,7 +89,7 @@ static int accelerate(zd_motion *motion)
     int status = zd_point_need(point, motion->acceleration_needs);
     if (status) return status;
     const double *force = find_force(point);
-    zd_copy_all(zd_constraints(point->system), point->terms.xi, point->rhs);
+    zd_copy_few(zd_constraints(point->system), point->terms.xi, point->rhs);
     if (motion->is_stabilized) zd_motion_stabilize(motion);
     status = zd_motion_factor_for(motion, force, point->rhs, point->vdot);
     if (!status) status = zd_limits_replace(point, ZD_LIMIT_XI, point->rhs);
@@ -153,33 +153,33 @@ const zd_equations zd_equations_by_matrices = {
 
 /* ---- corrections after a step ---- */
 
-enum which { ALL, PROJECTION, REST };
-
-ZD_INLINE int correct(zd_motion *motion, int64_t step, int forced, const enum which which)
+/* Applies those that are due, of which the projection alone has a target. */
+ZD_INLINE int correct(zd_motion *motion, int64_t step, int forced, const int has_target)
 {
     for (int i = 0; i < motion->corrections; i++) {
         const zd_active *active = &motion->active[i];
         if (!active->row->after_step || !(forced || zd_is_one_of(active->every, step))) continue;
-        if (which != ALL && (active->row->target != NULL) != (which == PROJECTION)) continue;
+        if ((active->row->target != NULL) != has_target) continue;
         int status = active->row->after_step(active->self, motion);
         if (status) return status;
     }
     return ZD_DONE;
 }
 
-int zd_motion_correct(zd_motion *motion, int64_t step, int forced)
-{
-    return correct(motion, step, forced, ALL);
-}
-
 int zd_motion_project(zd_motion *motion, int64_t step, int forced)
 {
-    return correct(motion, step, forced, PROJECTION);
+    return correct(motion, step, forced, 1);
 }
 
 int zd_motion_correct_rest(zd_motion *motion, int64_t step, int forced)
 {
-    return correct(motion, step, forced, REST);
+    return correct(motion, step, forced, 0);
+}
+
+int zd_motion_correct(zd_motion *motion)
+{
+    const int status = zd_motion_project(motion, 0, 1);
+    return status ? status : zd_motion_correct_rest(motion, 0, 1);
 }
 
 int zd_motion_is_corrected(const zd_motion *motion, int64_t step)

@@ -293,11 +293,10 @@ static inline void zd_correct_velocity(const zd_system *system, const double *v,
     ZD_SIZED(zd_subtract_pairs, system->nv, v, dv, to);
 }
 
-/* Applies the corrections that are due in this step, in their order; `forced`: all */
-int zd_motion_correct(zd_motion *motion, int64_t step, int forced);
-/* The projection alone, (25)-(27); and the corrections that follow it. */
+/* The projection (25)-(27), and the corrections that follow it, if they are due in this step; `forced`: in any */
 int zd_motion_project(zd_motion *motion, int64_t step, int forced);
 int zd_motion_correct_rest(zd_motion *motion, int64_t step, int forced);
+int zd_motion_correct(zd_motion *motion);       /* applies all */
 /* True if all corrections are due in this step. */
 int zd_motion_is_corrected(const zd_motion *motion, int64_t step);
 /* True if `step` is a multiple of `every`; for 1 without a division, the slowest of instructions. */

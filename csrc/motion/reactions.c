@@ -44,7 +44,7 @@ static int solve_with(zd_motion *motion)
 {
     zd_point *point = motion->point;
     const zd_reactions *self = &motion->reactions;
-    memcpy(point->inputs, self->u, (size_t)self->reading->functions * sizeof *self->u);
+    zd_copy_all(self->reading->functions, self->u, point->inputs);
     point->known &= ~(ZD_FORCE | ZD_POWER | ZD_ACCELERATED);
     return zd_equations_by_matrices.accelerate(motion);
 }
@@ -88,7 +88,7 @@ static int find_column(zd_reactions *self, const zd_state_read *at, int function
     const int n = self->reading->count;
     const double size = size_of(self, self->u1[function]);
     double *column = self->G + function * n;
-    memcpy(self->u, self->u0, (size_t)self->reading->functions * sizeof *self->u);
+    zd_copy_all(self->reading->functions, self->u0, self->u);
     self->u[function] = size;
     const int status = measure(self, at);
     for (int i = 0; i < n; i++) column[i] = (self->R[i] - self->r0[i]) / size;
@@ -117,7 +117,7 @@ static int evaluate_others(zd_reactions *self, const zd_state_read *at)
         self->u0[i] = 0;
         if (!reads(self->reading, i)) status = evaluate(self, at, i, count++ > 0, self->u0 + i);
     }
-    memcpy(self->u, self->u0, (size_t)self->reading->functions * sizeof *self->u);
+    zd_copy_all(self->reading->functions, self->u0, self->u);
     return status;
 }
 
@@ -246,7 +246,7 @@ static int iterate(zd_reactions *self, const zd_state_read *at, int *matrices)
 /* Checks the matrices between r0 and r; u remains. */
 static int check_between(zd_reactions *self, const zd_state_read *at)
 {
-    const size_t n = (size_t)self->reading->count, k = (size_t)self->reading->functions;
+    const size_t n = self->reading->count, k = self->reading->functions;
     int status = ZD_DONE;
     memcpy(self->r1, self->r, n * sizeof *self->r);
     memcpy(self->u1, self->u, k * sizeof *self->u);
@@ -264,17 +264,17 @@ static int check_between(zd_reactions *self, const zd_state_read *at)
 static int find_columns(zd_reactions *self, const zd_state_read *at)
 {
     int status = ZD_DONE;
-    memcpy(self->u1, self->u, (size_t)self->reading->functions * sizeof *self->u);
+    zd_copy_all(self->reading->functions, self->u, self->u1);
     for (int i = 0; i < self->reading->functions && !status; i++)
         if (reads(self->reading, i)) status = find_column(self, at, i);
-    memcpy(self->u, self->u1, (size_t)self->reading->functions * sizeof *self->u);
+    zd_copy_all(self->reading->functions, self->u1, self->u);
     return status;
 }
 
 /* u <- the values with which r = R(u(r)) */
 static int solve(zd_reactions *self, const zd_state_read *at)
 {
-    const size_t n = (size_t)self->reading->count;
+    const size_t n = self->reading->count;
     int matrices, status = evaluate_others(self, at);
     if (!status) status = measure(self, at);
     if (!status && !zd_is_finite((int)n, self->R)) status = ZD_NOT_FINITE;
@@ -306,18 +306,18 @@ static const zd_equations equations = {
 
 static zd_reactions create(zd_arena *arena, const zd_system *system)
 {
-    const size_t n = (size_t)system->reading->count, k = (size_t)system->reading->functions;
+    const size_t n = system->reading->count, k = system->reading->functions;
     return (zd_reactions){
         .reading = system->reading,
         .r = zd_arena_doubles(arena, n), .r0 = zd_arena_doubles(arena, n), .r1 = zd_arena_doubles(arena, n),
         .u = zd_arena_doubles(arena, k), .u0 = zd_arena_doubles(arena, k), .u1 = zd_arena_doubles(arena, k),
-        .u_r = zd_arena_doubles(arena, (size_t)system->reading->reads),
+        .u_r = zd_arena_doubles(arena, system->reading->reads),
         .G = zd_arena_doubles(arena, k * n),
         .R = zd_arena_doubles(arena, n), .change = zd_arena_doubles(arena, n), .scale = zd_arena_doubles(arena, n),
         .matrix = zd_arena_doubles(arena, n * n), .inverse = zd_arena_doubles(arena, n * n),
         .order = zd_arena_ints(arena, n),
-        .measured = zd_arena_doubles(arena, (size_t)zd_largest_measure(system->measures)),
-        .scratch = zd_arena_doubles(arena, (size_t)system->measures->scratch),
+        .measured = zd_arena_doubles(arena, zd_largest_measure(system->measures)),
+        .scratch = zd_arena_doubles(arena, system->measures->scratch),
     };
 }
 
@@ -341,7 +341,7 @@ int zd_reactions_at(const zd_system *system, double t, const double *p, const do
     zd_reactions self = create(&arena, system);
     const zd_state_read at = {system, NULL, t, p, v, vdot, lambda, efforts};
     const int status = solve(&self, &at);
-    memcpy(u, self.u, (size_t)system->reading->functions * sizeof *u);
+    zd_copy_all(system->reading->functions, self.u, u);
     zd_memory_free(memory);
     return status;
 }

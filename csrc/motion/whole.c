@@ -7,8 +7,8 @@ int zd_motion_expand(void *context, double t, const double *y, double *whole)
     zd_motion *motion = context;
     const zd_point *point = motion->point;
     int status = motion->formulation->unpack(motion->solver, motion->point, t, y);
-    zd_copy_all(motion->system.nq, point->p, whole);
-    zd_copy_all(motion->system.nv, point->v, whole + motion->system.nq);
+    zd_copy_few(motion->system.nq, point->p, whole);
+    zd_copy_few(motion->system.nv, point->v, whole + motion->system.nq);
     return status;
 }
 

@@ -29,13 +29,13 @@ static zd_end_rates create_end_rates(zd_arena *arena, const zd_output *output)
 {
     const zd_system *system = &output->stepper->motion->system;
     if (zd_is_adaptive(output->loop) || output->stepper->integrator->takes_series) return (zd_end_rates){0};
-    return (zd_end_rates){zd_arena_doubles(arena, (size_t)system->nq), zd_arena_doubles(arena, (size_t)system->nv), 0};
+    return (zd_end_rates){zd_arena_doubles(arena, system->nq), zd_arena_doubles(arena, system->nv), 0};
 }
 
 zd_watch zd_watch_create(zd_arena *arena, const zd_events *events, zd_output *output)
 {
     if (!events) return (zd_watch){.events = NULL};
-    size_t count = (size_t)events->count;
+    size_t count = events->count;
     const zd_motion *motion = output->stepper->motion;
     return (zd_watch){
         .events = events,

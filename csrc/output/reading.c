@@ -17,9 +17,9 @@ zd_reader zd_reader_create(zd_arena *arena, const zd_events *events, const zd_sy
         .of = of,
         .inputs = inputs,
         .point = point,
-        .x = zd_arena_doubles(arena, (size_t)most),
-        .measured = zd_arena_doubles(arena, (size_t)zd_largest_measure(of->measures)),
-        .scratch = zd_arena_doubles(arena, of->measures ? (size_t)of->measures->scratch : 0),
+        .x = zd_arena_doubles(arena, most),
+        .measured = zd_arena_doubles(arena, zd_largest_measure(of->measures)),
+        .scratch = zd_arena_doubles(arena, of->measures ? of->measures->scratch : 0),
     };
 }
 

@@ -9,7 +9,7 @@
 static void copy_sample(double *table, int64_t sample, int width, const double *values)
 {
     double *to = table + sample * width;
-    zd_copy_all(width, values, to);
+    zd_copy_few(width, values, to);
 }
 
 static int record_constraints(zd_motion *motion, zd_record *record, int64_t sample)
@@ -60,7 +60,7 @@ zd_recorder zd_recorder_create(zd_arena *arena, const zd_settings *settings, zd_
     self.measured = self.outputs->of ? self.outputs->of : &motion->system;
     const zd_measures *measures = self.measured->measures;
     for (int i = 0; i < self.outputs->count; i++) self.width += measures->measure[self.outputs->measure[i]].size;
-    self.scratch = zd_arena_doubles(arena, (size_t)measures->scratch);
+    self.scratch = zd_arena_doubles(arena, measures->scratch);
     return self;
 }
 

@@ -20,7 +20,7 @@ zd_output zd_output_create(zd_arena *arena, const zd_settings *settings, zd_step
     if (settings->t_eval || settings->events) {
         self.before = zd_state_create(arena, stepper->motion);
         self.after = zd_snapshot_create(arena, stepper);
-        self.y = zd_arena_doubles(arena, self.has_polynomial ? (size_t)stepper->capacity : 0);
+        self.y = zd_arena_doubles(arena, self.has_polynomial ? stepper->capacity : 0);
     }
     return self;
 }

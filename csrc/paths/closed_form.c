@@ -1,7 +1,6 @@
 /* The closed-form path: equations of motion, projection, parts of a step, and its quick check. */
 #include "path.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "../constraints/rank.h"
@@ -27,7 +26,7 @@ int zd_closed_form_accelerate(zd_motion *motion, int (*evaluate_with)(zd_motion 
     int status = zd_point_need(point, motion->corrections_need);
     if (status) return status;
     if (motion->is_stabilized) {
-        for (int k = 0; k < zd_constraints(point->system); k++) point->rhs[k] = 0;
+        zd_clear(zd_constraints(point->system), point->rhs);
         zd_motion_stabilize(motion);
     }
     if (evaluate_with(motion, motion->is_stabilized ? point->rhs : NULL)) return ZD_CALLBACK;
@@ -50,8 +49,8 @@ static int rate_of_point(zd_motion *motion, double t, const double *y, double *y
     if (motion->corrections_size) point->known &= ~ZD_ACCELERATED;
     int status = zd_motion_accelerate(motion);
     if (status) return status;
-    zd_copy_all(nq, point->terms.A ? motion->path.pdot : point->v, ydot);
-    zd_copy_all(nv, point->vdot, ydot + nq);
+    zd_copy_few(nq, point->terms.A ? motion->path.pdot : point->v, ydot);
+    zd_copy_few(nv, point->vdot, ydot + nq);
     if (motion->corrections_size) zd_motion_extra_rates(motion, ydot);
     if (motion->balance.input) ydot[motion->rate.size - 1] = motion->path.power;
     return ZD_DONE;
@@ -63,12 +62,12 @@ static int rate(void *context, double t, const double *y, double *ydot)
     zd_motion *motion = context;
     const zd_point *point = motion->point;
     const int nq = point->system->nq, nv = point->system->nv;
-    const size_t of_p = (size_t)nq * sizeof *y, of_v = (size_t)nv * sizeof *y;
+    const size_t of_p = nq * sizeof *y, of_v = nv * sizeof *y;
     int is_known = (point->known & ZD_ACCELERATED) && t == point->t && !memcmp(y, point->p, of_p) && !memcmp(y + nq, point->v, of_v);
     if (motion->is_stabilized) motion->state = y;
     if (is_known || motion->is_stabilized) return rate_of_point(motion, t, y, ydot);
     motion->statistics.evaluations++;
-    if (!point->terms.A) zd_copy_all(nv, y + nq, ydot);
+    if (!point->terms.A) zd_copy_few(nv, y + nq, ydot);
     double *power = motion->balance.input ? ydot + motion->rate.size - 1 : NULL;
     const zd_elimination *order = zd_path_order(motion);
     int status = order->accelerate(order, point->system->data, point->terms.inputs, &t, y, y + nq, NULL, ydot, ydot + nq, NULL, power, NULL);
@@ -216,7 +215,7 @@ static int correct_rest(zd_stepper *stepper, int64_t step, int forced)
     zd_motion *motion = stepper->motion;
     int status = zd_motion_correct_rest(motion, step, forced);
     if (status || !motion->path.is_plain) return status;
-    zd_copy_all(motion->system.nv, motion->point->v, stepper->y + motion->system.nv);
+    zd_copy_few(motion->system.nv, motion->point->v, stepper->y + motion->system.nv);
     return zd_motion_accelerate(motion);
 }
 

@@ -25,14 +25,14 @@ void zd_closed_form_create(zd_motion *motion, zd_arena *arena, enum zd_unit unit
         .first = embeds ? closed_form->embedding : closed_form->order,
         .orders = orders,
         .order = -1,
-        .scale = zd_arena_doubles(arena, (size_t)(orders * system->nv)),
-        .pivots = zd_arena_doubles(arena, (size_t)system->nv),
-        .before = zd_arena_doubles(arena, (size_t)system->nv),
-        .pdot = zd_arena_doubles(arena, (size_t)system->nq),
-        .range = zd_arena_bytes(arena, (size_t)system->nv * sizeof(zd_range)),
-        .dp = zd_arena_doubles(arena, (size_t)system->nq),
-        .dv = zd_arena_doubles(arena, (size_t)system->nv),
-        .allowed = zd_arena_doubles(arena, (size_t)system->mh),
+        .scale = zd_arena_doubles(arena, orders * system->nv),
+        .pivots = zd_arena_doubles(arena, system->nv),
+        .before = zd_arena_doubles(arena, system->nv),
+        .pdot = zd_arena_doubles(arena, system->nq),
+        .range = zd_arena_bytes(arena, system->nv * sizeof(zd_range)),
+        .dp = zd_arena_doubles(arena, system->nq),
+        .dv = zd_arena_doubles(arena, system->nv),
+        .allowed = zd_arena_doubles(arena, system->mh),
     };
     if (embeds) zd_embed_create(motion, arena);
 }

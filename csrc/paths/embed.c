@@ -23,13 +23,13 @@ void zd_embed_create(zd_motion *motion, zd_arena *arena)
 {
     const zd_system *system = &motion->system;
     zd_path *path = &motion->path;
-    const size_t nv = (size_t)system->nv, m = (size_t)zd_constraints(system), mh = (size_t)system->mh;
+    const size_t nv = system->nv, m = zd_constraints(system), mh = system->mh;
     path->embeds = 1;
     if (motion->solver) motion->formulation->entries(motion->solver, &path->state);
-    path->p = zd_arena_doubles(arena, (size_t)system->nq);
+    path->p = zd_arena_doubles(arena, system->nq);
     path->v = zd_arena_doubles(arena, nv);
     path->vdot = zd_arena_doubles(arena, nv);
-    path->pdot_of_stage = zd_arena_doubles(arena, (size_t)system->nq);
+    path->pdot_of_stage = zd_arena_doubles(arena, system->nq);
     path->Phi = zd_arena_doubles(arena, mh);
     path->unbounded = zd_arena_doubles(arena, mh);
     path->D = zd_arena_doubles(arena, m * (nv - m));
@@ -107,7 +107,7 @@ void zd_embed_read(zd_motion *motion, double t, const double *y)
     if (path->state.q) predict(motion, t, path->p);
     for (int i = 0; i < k; i++) path->p[path->state.q ? path->state.q[i] : i] = y[i];
     /* Dependent velocities start from zero, so that their bits depend on the independent ones only. */
-    for (int j = 0; j < system->nv; j++) path->v[j] = 0;
+    zd_clear(system->nv, path->v);
     for (int j = 0; j < r; j++) path->v[path->state.u[j]] = y[k + j];
 }
 
@@ -116,8 +116,8 @@ static void read_point(zd_motion *motion)
     const zd_point *point = motion->point;
     zd_path *path = &motion->path;
     const int r = point->system->nv - zd_constraints(point->system);
-    zd_copy_all(point->system->nq, point->p, path->p);
-    for (int j = 0; j < point->system->nv; j++) path->v[j] = 0;
+    zd_copy_few(point->system->nq, point->p, path->p);
+    zd_clear(point->system->nv, path->v);
     for (int j = 0; j < r; j++) path->v[path->state.u[j]] = point->v[path->state.u[j]];
 }
 

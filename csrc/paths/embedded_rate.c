@@ -42,7 +42,7 @@ static int is_known(const zd_motion *motion, double t)
     const int r = point->system->nv - zd_constraints(point->system);
     int same = (point->known & ZD_ACCELERATED) && t == point->t;
     for (int j = 0; j < r; j++) same &= path->v[path->state.u[j]] == point->v[path->state.u[j]];
-    return same && !memcmp(path->p, point->p, (size_t)point->system->nq * sizeof(double));
+    return same && !memcmp(path->p, point->p, point->system->nq * sizeof(double));
 }
 
 static int rate(void *context, double t, const double *y, double *ydot)
@@ -76,8 +76,8 @@ static int expand(void *context, double t, const double *y, double *whole)
     const zd_path *path = &motion->path;
     zd_embed_read(motion, t, y);
     int status = find_stage(motion, t, NULL);
-    zd_copy_all(motion->system.nq, path->p, whole);
-    zd_copy_all(motion->system.nv, path->v, whole + motion->system.nq);
+    zd_copy_few(motion->system.nq, path->p, whole);
+    zd_copy_few(motion->system.nv, path->v, whole + motion->system.nq);
     return status;
 }
 

@@ -141,7 +141,7 @@ void zd_closed_form_discard(zd_motion *motion)
 {
     const zd_path *path = &motion->path;
     zd_closed_form_leave(motion);
-    for (int i = 0; i < path->orders * motion->system.nv; i++) path->scale[i] = 0;
+    zd_clear(path->orders * motion->system.nv, path->scale);
 }
 
 void zd_closed_form_save_energy(zd_motion *motion)
@@ -166,7 +166,7 @@ int zd_closed_form_leave_step(zd_motion *motion)
 /* Saves pivots and energy counters at the start of a step. */
 static void begin(zd_motion *motion)
 {
-    zd_copy_all(count_pivots(motion), motion->path.pivots, motion->path.before);
+    zd_copy_few(count_pivots(motion), motion->path.pivots, motion->path.before);
     zd_closed_form_save_energy(motion);
     if (motion->path.embeds) zd_embed_begin(motion);
 }

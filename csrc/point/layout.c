@@ -1,7 +1,7 @@
 /* Offsets by zd_structure: A and M are stored block after block, C group after group. */
 #include "point.h"
 
-#include <string.h>
+#include "../linalg/small.h"
 
 enum { MAX_TOUCHERS = 12 };
 
@@ -61,7 +61,7 @@ static void fill_identity(int n, int is_diagonal, double *to)
 void zd_set_identity(const zd_system *system, double *M)
 {
     const zd_structure *structure = system->structure;
-    memset(M, 0, (size_t)zd_size_of_M(system) * sizeof *M);
+    zd_clear(zd_size_of_M(system), M);
     if (!structure) fill_identity(system->nv, 0, M);
     for (int b = 0; structure && b < structure->blocks; b++) {
         int size = size_of_mass(structure, b), n = structure->velocities[b];
@@ -116,11 +116,6 @@ static void fill_touchers(zd_layout *self, const zd_structure *structure)
     at[0] = 0;
 }
 
-static int *arena_ints(zd_arena *arena, int count)
-{
-    return zd_arena_ints(arena, (size_t)count);
-}
-
 const zd_layout *zd_layout_create(zd_arena *arena, const zd_system *system)
 {
     const zd_structure *structure = system->structure;
@@ -131,23 +126,23 @@ const zd_layout *zd_layout_create(zd_arena *arena, const zd_system *system)
         .blocks = blocks,
         .groups = groups,
         .max_touchers = MAX_TOUCHERS,
-        .coordinate_at = arena_ints(arena, blocks + 1),
-        .velocity_at = arena_ints(arena, blocks + 1),
-        .A_at = arena_ints(arena, blocks + 1),
-        .M_at = arena_ints(arena, blocks + 1),
-        .is_diagonal = arena_ints(arena, blocks),
-        .block_of = arena_ints(arena, system->nv),
-        .row_at = arena_ints(arena, groups + 1),
-        .C_at = arena_ints(arena, groups + 1),
-        .width = arena_ints(arena, groups),
-        .group_of = arena_ints(arena, system->mh + system->mn),
-        .touched_at = arena_ints(arena, groups + 1),
-        .touched = arena_ints(arena, touched),
-        .toucher_at = arena_ints(arena, blocks + 1),
-        .toucher = arena_ints(arena, touched),
-        .toucher_offset = arena_ints(arena, touched),
-        .column_at = arena_ints(arena, groups + 1),
-        .column = arena_ints(arena, columns),
+        .coordinate_at = zd_arena_ints(arena, blocks + 1),
+        .velocity_at = zd_arena_ints(arena, blocks + 1),
+        .A_at = zd_arena_ints(arena, blocks + 1),
+        .M_at = zd_arena_ints(arena, blocks + 1),
+        .is_diagonal = zd_arena_ints(arena, blocks),
+        .block_of = zd_arena_ints(arena, system->nv),
+        .row_at = zd_arena_ints(arena, groups + 1),
+        .C_at = zd_arena_ints(arena, groups + 1),
+        .width = zd_arena_ints(arena, groups),
+        .group_of = zd_arena_ints(arena, system->mh + system->mn),
+        .touched_at = zd_arena_ints(arena, groups + 1),
+        .touched = zd_arena_ints(arena, touched),
+        .toucher_at = zd_arena_ints(arena, blocks + 1),
+        .toucher = zd_arena_ints(arena, touched),
+        .toucher_offset = zd_arena_ints(arena, touched),
+        .column_at = zd_arena_ints(arena, groups + 1),
+        .column = zd_arena_ints(arena, columns),
     };
     if (arena->base) {
         fill_blocks(&self, structure);

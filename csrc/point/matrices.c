@@ -1,7 +1,6 @@
 #include "point.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "../linalg/small.h"
 
@@ -18,7 +17,7 @@ double zd_point_scaled_row(const zd_point *point, int k, const double *scale, do
     const int nv = point->system->nv;
     const zd_row_of_C row = zd_point_row(point, k);
     zd_row_expand(&row, nv, to);
-    if (zd_largest(nv, to) <= point->rounding[k]) memset(to, 0, (size_t)nv * sizeof *to);
+    if (zd_largest(nv, to) <= point->rounding[k]) zd_clear(nv, to);
     for (int i = 0; i < nv; i++) to[i] *= scale[i];
     return sqrt(zd_dot(nv, to, to));
 }
@@ -39,7 +38,7 @@ double zd_row_times(const zd_row_of_C *row, const double *x)
 
 void zd_row_expand(const zd_row_of_C *row, int n, double *x)
 {
-    if (row->column) memset(x, 0, (size_t)n * sizeof *x);
+    if (row->column) zd_clear(n, x);
     for (int j = 0; j < row->count; j++) x[zd_column(row, j)] = row->x[j];
 }
 
@@ -157,7 +156,7 @@ void zd_point_rate(const zd_point *point, const double *v, double *pdot)
         point->system->operations->times_A(point->system->data, &point->terms, v, pdot);    /* (1) */
         return;
     }
-    if (!A) zd_copy_all(point->system->nq, v, pdot);
+    if (!A) zd_copy_few(point->system->nq, v, pdot);
     else if (!layout) ZD_SIZED(multiply, point->system->nv, point->system->nq, A, v, pdot);     /* (1) */
     for (int b = 0; A && layout && b < layout->blocks; b++)
         ZD_SIZED(multiply, layout->velocity_at[b + 1] - layout->velocity_at[b], layout->coordinate_at[b + 1] - layout->coordinate_at[b],
@@ -343,7 +342,7 @@ static void expand_rows(const zd_system *system, const double *packed, double *d
 void zd_expand(const zd_system *system, int term, const double *packed, double *dense)
 {
     const int rows = term == ZD_A ? system->nq : term == ZD_M ? system->nv : zd_constraints(system);
-    memset(dense, 0, (size_t)(rows * system->nv) * sizeof *dense);
+    zd_clear(rows * system->nv, dense);
     if (term == ZD_C) expand_rows(system, packed, dense);
     else expand_blocks(system, term, packed, dense);
 }

@@ -42,9 +42,9 @@ zd_shape zd_term_shape(const zd_system *system, int row)
 
 size_t zd_term_size(const zd_system *system, int row)
 {
-    if (system->structure && (rows[row].term & (ZD_A | ZD_M | ZD_C))) return (size_t)zd_packed_size(system, rows[row].term);
+    if (system->structure && (rows[row].term & (ZD_A | ZD_M | ZD_C))) return zd_packed_size(system, rows[row].term);
     zd_shape shape = zd_term_shape(system, row);
-    return (size_t)shape.size[0] * (size_t)shape.size[1];
+    return (size_t)shape.size[0] * shape.size[1];
 }
 
 double **zd_term_in(zd_terms *terms, int row) { return (double **)(void *)((char *)terms + rows[row].offset); }
@@ -52,7 +52,7 @@ double **zd_term_in(zd_terms *terms, int row) { return (double **)(void *)((char
 double *zd_create_inputs(zd_arena *arena, const zd_system *system)
 {
     if (system->reading) {      /* not a number until they are solved for */
-        double *u = zd_arena_doubles(arena, (size_t)system->reading->functions);
+        double *u = zd_arena_doubles(arena, system->reading->functions);
         for (int i = 0; u && i < system->reading->functions; i++) u[i] = NAN;
         return u;
     }
@@ -93,13 +93,13 @@ static zd_terms create_terms(zd_arena *arena, const zd_system *system)
     zd_terms terms = {0};
     for (int row = 0; zd_term_at(row); row++)
         if (system->provides & zd_term_at(row)->term) *zd_term_in(&terms, row) = zd_arena_doubles(arena, zd_term_size(system, row));
-    terms.scratch = zd_arena_doubles(arena, (size_t)system->scratch);
+    terms.scratch = zd_arena_doubles(arena, system->scratch);
     return terms;
 }
 
 zd_point *zd_point_create(zd_arena *arena, const zd_system *system, zd_statistics *statistics)
 {
-    size_t nq = (size_t)system->nq, nv = (size_t)system->nv, m = (size_t)zd_constraints(system);
+    size_t nq = system->nq, nv = system->nv, m = zd_constraints(system);
     double *vdot = zd_arena_doubles(arena, nv + m);
     zd_point point = {
         .system = system,
@@ -128,8 +128,8 @@ zd_point *zd_point_create(zd_arena *arena, const zd_system *system, zd_statistic
 /* to <- from; returns true if any bit has changed */
 ZD_INLINE int replace(const int n, double *to, const double *from)
 {
-    if (memcmp(to, from, (size_t)n * sizeof *to) == 0) return 0;
-    memcpy(to, from, (size_t)n * sizeof *to);
+    if (memcmp(to, from, n * sizeof *to) == 0) return 0;
+    zd_copy_all(n, from, to);
     return 1;
 }
 

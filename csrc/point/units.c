@@ -52,7 +52,7 @@ static double length_of(const zd_point *point)
 static double *terms_of_rows(const zd_point *point, int *status)
 {
     const zd_system *system = point->system;
-    const size_t m = (size_t)zd_constraints(system);
+    const size_t m = zd_constraints(system);
     *status = ZD_DONE;
     if (!system->magnitudes || !m) return NULL;
     double *memory = zd_allocate((2 * m + (size_t)system->magnitudes_scratch) * sizeof(double));

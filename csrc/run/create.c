@@ -124,7 +124,7 @@ static zd_run *lay_out(const zd_system *system, const zd_settings *settings, int
     create_run(&counting, system, settings, &independent);
     zd_memory *memory = zd_memory_create(counting.used);
     if (!memory) {
-        snprintf(message, (size_t)size, "there is no memory for this: %.3g MiB", (double)counting.used / 0x1p20);
+        snprintf(message, size, "there is no memory for this: %.3g MiB", (double)counting.used / 0x1p20);
         return NULL;
     }
     zd_arena arena = zd_arena_in(memory);
@@ -176,7 +176,7 @@ void zd_run_free(zd_run *run)
 static zd_run *refuse(zd_run *run, int why, int *status, char *message, int size)
 {
     *status = zd_explain(run, why);
-    snprintf(message, (size_t)size, "%s", run->outcome.message);
+    snprintf(message, size, "%s", run->outcome.message);
     zd_run_free(run);
     return NULL;
 }
@@ -193,6 +193,6 @@ zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, cons
     int why = zd_run_start(run, *status, p0, v0);
     if (!why && zd_output_interpolates(&run->output)) why = zd_dense_output_create(&run->stepper);
     *status = why;
-    if (settings->is_open) zd_run_leave_open(run);
+    if (settings->is_open) zd_run_remove_end(run);
     return why ? refuse(run, why, status, message, message_size) : run;
 }

@@ -6,18 +6,17 @@
 #include <math.h>
 
 #include "../constraints/rank.h"
+#include "../linalg/small.h"
 #include "../paths/path.h"
 #include "../state/stepper.h"
 
 static int is_fixed(const zd_run *run) { return run->settings.steps == ZD_FIXED_STEPS; }
 
-static void remove_end(zd_run *run)
+void zd_run_remove_end(zd_run *run)
 {
     run->loop.end = INFINITY;
     run->loop.steps = 0;
 }
-
-void zd_run_leave_open(zd_run *run) { remove_end(run); }
 
 /* Counts steps from the present state if the last one ended elsewhere than where it is counted. */
 static void begin_anew(zd_run *run)
@@ -49,7 +48,7 @@ int zd_run_set_goal(zd_run *run, int64_t steps, double t)
         if (!run->outcome.status) run->outcome.message[0] = '\0';
         else if (run->outcome.status == ZD_EVENT) run->outcome = (zd_outcome){.status = ZD_DONE};
         begin_anew(run);
-        remove_end(run);
+        zd_run_remove_end(run);
         if (run->watch.ended) run->watch.found[run->watch.ended - 1] = 0;      /* it is terminal again */
         run->watch.ended = 0;
     }
@@ -110,8 +109,8 @@ int zd_run_accelerations(zd_run *run, double *vdot, double *multipliers)
     const int status = zd_motion_accelerate(motion);
     if (status) return status;
     zd_rank_find_multipliers(motion->point);
-    for (int i = 0; i < motion->system.nv; i++) vdot[i] = motion->point->vdot[i];
-    for (int k = 0; k < zd_constraints(motion->point->system); k++) multipliers[k] = motion->point->lambda[k];
+    zd_copy(motion->system.nv, motion->point->vdot, vdot);
+    zd_copy(zd_constraints(motion->point->system), motion->point->lambda, multipliers);
     return ZD_DONE;
 }
 

@@ -24,17 +24,17 @@ static void keep_speeds(const zd_inputs *inputs, double *to)
 
 static void create_jump(zd_held_inputs *held, zd_arena *arena, const zd_motion *motion)
 {
-    const size_t m = (size_t)zd_constraints(&motion->system);
+    const size_t m = zd_constraints(&motion->system);
     held->jump.impulses = zd_arena_doubles(arena, m);
     held->jump.works = zd_arena_doubles(arena, m);
     held->start = zd_state_create(arena, motion);
     held->rhs = zd_arena_doubles(arena, m);
-    held->x = zd_arena_doubles(arena, (size_t)motion->system.nv);
+    held->x = zd_arena_doubles(arena, motion->system.nv);
 }
 
 zd_held_inputs zd_inputs_create(zd_arena *arena, const zd_inputs *inputs, const zd_motion *motion)
 {
-    const size_t count = inputs ? (size_t)inputs->count : 0;
+    const size_t count = inputs ? inputs->count : 0;
     zd_held_inputs held = {.value = zd_arena_doubles(arena, count), .has_changed = zd_arena_bytes(arena, count)};
     held.before.place = zd_arena_doubles(arena, 3 * count_speeds(inputs));
     if (inputs && inputs->jumps) create_jump(&held, arena, motion);
@@ -88,10 +88,10 @@ int zd_inputs_read(zd_run *run)
 {
     const zd_inputs *inputs = run->settings.inputs;
     if (!inputs) return ZD_DONE;
-    const size_t bytes = (size_t)inputs->count * sizeof(double);
+    const size_t bytes = inputs->count * sizeof(double);
     if (is_refused(inputs)) return ZD_BAD_INPUT;       /* also a first value, and a restored one */
     if (!memcmp(run->held.value, inputs->value, bytes)) return ZD_DONE;
-    if (!run->held.is_new) memset(run->held.has_changed, 0, (size_t)inputs->count);
+    if (!run->held.is_new) memset(run->held.has_changed, 0, inputs->count);
     for (int i = 0; i < inputs->count; i++) run->held.has_changed[i] |= run->held.value[i] != inputs->value[i];
     memcpy(run->held.value, inputs->value, bytes);
     run->held.has_ramp = zd_inputs_have_speeds(inputs) && !inputs->jumps && inputs->ramp == 0;

@@ -60,8 +60,8 @@ static int is_at(const zd_resample *self, int64_t sample)
     const zd_point *point = self->run->motion.point;
     const zd_saved *saved = self->saved;
     const int nq = point->system->nq, nv = point->system->nv;
-    return !memcmp(point->p, sample_of(saved, saved->p, nq, sample), (size_t)nq * sizeof(double))
-        && !memcmp(point->v, sample_of(saved, saved->v, nv, sample), (size_t)nv * sizeof(double));
+    return !memcmp(point->p, sample_of(saved, saved->p, nq, sample), nq * sizeof(double))
+        && !memcmp(point->v, sample_of(saved, saved->v, nv, sample), nv * sizeof(double));
 }
 
 /* Moves to a sample and chooses the evaluation path of a step from there. */

@@ -103,8 +103,8 @@ void zd_inputs_return(zd_run *run);
 
 /* Open runs: the goal of the present advance, and the return from a step that failed. */
 
-/* Removes the end of a run that is at its start. */
-void zd_run_leave_open(zd_run *run);
+/* Removes the time and the step at which it ends. */
+void zd_run_remove_end(zd_run *run);
 /* Beginning of a step: an open run saves its start, and inputs are written. */
 int zd_run_begin_step(zd_run *run);
 /* Explains why the run ends; an open run that failed returns to the start of the step, from where it can go on. */

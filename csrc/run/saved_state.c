@@ -72,13 +72,13 @@ static uint64_t word_at(const void *memory, size_t i)
 /* Words of a block; of one that is not in the image, with the record of where it has numbers, which follows it. */
 static size_t words_of(const zd_memory *block)
 {
-    const size_t lines = block->image ? 0 : (size_t)(block->bytes / 64);
+    const size_t lines = block->image ? 0 : block->bytes / 64;
     return block->bytes / WORD + (lines + WORD - 1) / WORD;
 }
 
 int zd_state_begin(zd_run *run, const double *p0, const double *v0)
 {
-    const size_t nq = (size_t)run->motion.system.nq, nv = (size_t)run->motion.system.nv;
+    const size_t nq = run->motion.system.nq, nv = run->motion.system.nv;
     run->start = zd_memory_create((nq + nv) * sizeof *p0);
     if (!run->start) return ZD_NO_MEMORY;
     memcpy(run->start->base, p0, nq * sizeof *p0);
@@ -124,7 +124,7 @@ static uint64_t hash_settings(const zd_settings *settings)
     uint64_t found = hash(UINT64_C(0xcbf29ce484222325), numbers, sizeof numbers);
     found = hash_given(hash_given(found, &settings->of_formulation), &settings->of_integrator);
     for (int i = 0; i < ZD_CORRECTIONS_MAX; i++) found = hash_given(found, &settings->correction[i]);
-    return settings->t_eval ? hash(found, settings->t_eval, (size_t)settings->t_evals * sizeof *settings->t_eval) : found;
+    return settings->t_eval ? hash(found, settings->t_eval, settings->t_evals * sizeof *settings->t_eval) : found;
 }
 
 static void write_fingerprint(const char *fingerprint, uint64_t words[FINGERPRINT_WORDS])
@@ -214,7 +214,7 @@ static void put_block(const zd_run *run, const zd_memory *block, sink *to)
 
 static size_t write_state(const zd_run *run, const char *fingerprint, unsigned char *block)
 {
-    const size_t nq = (size_t)run->motion.system.nq, nv = (size_t)run->motion.system.nv;
+    const size_t nq = run->motion.system.nq, nv = run->motion.system.nv;
     uint64_t header[HEADER] = {[0] = MAGIC, [COORDINATES] = nq, [VELOCITIES] = nv, [BLOCKS] = (uint64_t)count_blocks(run),
                                [DEPENDENT] = run->motion.formulation != run->stepper.chosen.formulation};
     sink to = {block, HEADER};
@@ -307,7 +307,7 @@ static int fill(zd_run *run, const uint64_t *header, source *from)
     if ((uint64_t)count_blocks(run) != header[KEPT]) return ZD_BAD_ARGUMENT;
     for (uint64_t i = 0; i < header[BLOCKS]; i++) {
         const uint64_t bytes = get(&sizes);
-        if (i < header[KEPT] ? block_of(run, (int)i)->bytes != bytes : !zd_store_add(&run->motion.store, (size_t)bytes)) return ZD_NO_MEMORY;
+        if (i < header[KEPT] ? block_of(run, (int)i)->bytes != bytes : !zd_store_add(&run->motion.store, bytes)) return ZD_NO_MEMORY;
         for (uint64_t head = get(&sizes); head != END && sizes.next <= sizes.count; head = get(&sizes)) {
             const uint64_t words = head % 8 == NUMBERS ? get(&sizes) : head % 8 == IN_RUN ? 2 : 1;
             sizes.next += words;
@@ -329,11 +329,11 @@ zd_run *zd_state_restore(const zd_system *system, const zd_settings *settings, c
     memcpy(header, block, bytes < sizeof header ? bytes : sizeof header);
     const char *wrong = wrong_header(header, block, bytes, system, settings, fingerprint);
     source from = {block, bytes / WORD, HEADER + (size_t)(system->nq + system->nv)};
-    zd_memory *start = wrong ? NULL : zd_memory_create((size_t)(system->nq + system->nv) * sizeof(double));
+    zd_memory *start = wrong ? NULL : zd_memory_create((system->nq + system->nv) * sizeof(double));
     zd_run *run = NULL;
     if (start) {
         double *p0 = (void *)start->base;
-        memcpy(p0, (const unsigned char *)block + HEADER * WORD, (size_t)(system->nq + system->nv) * sizeof *p0);
+        memcpy(p0, (const unsigned char *)block + HEADER * WORD, (system->nq + system->nv) * sizeof *p0);
         run = zd_run_create(system, settings, p0, p0 + system->nq, status, message, message_size);
         if (run) *status = zd_state_begin(run, p0, p0 + system->nq);
         const int agree = run && header[SETTINGS] == hash_settings(&run->settings);
@@ -345,6 +345,6 @@ zd_run *zd_state_restore(const zd_system *system, const zd_settings *settings, c
     }
     zd_run_free(run);
     *status = wrong ? ZD_BAD_ARGUMENT : ZD_NO_MEMORY;
-    snprintf(message, (size_t)message_size, "%s", wrong ? wrong : "there is no memory for a saved state");
+    snprintf(message, message_size, "%s", wrong ? wrong : "there is no memory for a saved state");
     return NULL;
 }

@@ -10,7 +10,6 @@
 #include "../linalg/small.h"
 #include "../paths/path.h"
 #include "../point/point.h"
-#include "../registry.h"
 #include "../step/step_loop.h"
 
 static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start relative to sizes, if the corrections' own is tighter */
@@ -207,7 +206,7 @@ static int check_mass(zd_run *run, double *factor)
     if (point->failed_index == n) return ZD_DONE;
     if (run->motion.formulation->inverts_mass) return ZD_NOT_DEFINITE;
     if (point->rank->is_large) return check_blocks(run);
-    double *dense = zd_allocate((size_t)n * (size_t)n * sizeof *dense);
+    double *dense = zd_allocate((size_t)n * n * sizeof *dense);
     status = dense ? check_singular_mass(run, dense) : ZD_NO_MEMORY;
     zd_release(dense);
     return status;
@@ -254,8 +253,8 @@ static int check(zd_run *run, const workspace *work, const double *p0, const dou
 static workspace lay_out(zd_arena *arena, const zd_motion *motion)
 {
     return (workspace){
-        .Psi = zd_arena_doubles(arena, (size_t)zd_constraints(&motion->system)),
-        .factor = zd_arena_doubles(arena, (size_t)zd_size_of_M(&motion->system)),
+        .Psi = zd_arena_doubles(arena, zd_constraints(&motion->system)),
+        .factor = zd_arena_doubles(arena, zd_size_of_M(&motion->system)),
         .states = zd_arena_doubles(arena, 3 * (size_t)motion->rate.size),
     };
 }
@@ -335,8 +334,7 @@ int zd_run_start(zd_run *run, int status, const double *p0, const double *v0)
 {
     zd_arena arena = {0};
     lay_out(&arena, &run->motion);
-    arena = (zd_arena){.base = zd_allocate(arena.used)};
-    if (!arena.base) return ZD_NO_MEMORY;
+    if (!zd_arena_allocate(&arena)) return ZD_NO_MEMORY;
     const workspace work = lay_out(&arena, &run->motion);
     status = start(run, status, &work, p0, v0);
     zd_release(arena.base);

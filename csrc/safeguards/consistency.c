@@ -12,7 +12,6 @@
 
 #include <math.h>
 #include <stdint.h>
-#include <string.h>
 
 #include "../linalg/small.h"
 #include "../point/point.h"
@@ -51,7 +50,7 @@ int zd_consistency_mass(zd_point *point)
 zd_consistency zd_consistency_create(zd_arena *arena, zd_motion *motion, const zd_settings *settings)
 {
     const zd_system *system = &motion->system;
-    size_t nq = (size_t)system->nq, nv = (size_t)system->nv, mh = (size_t)system->mh;
+    size_t nq = system->nq, nv = system->nv, mh = system->mh;
     if (!settings->given_jacobian || !mh) return (zd_consistency){.motion = motion, .compares = 0};
     return (zd_consistency){
         .motion = motion,
@@ -180,7 +179,7 @@ int zd_consistency_jacobian(zd_consistency *self, int64_t step)
     for (int i = 0; i <= n; i++) self->direction[i] = unit(self, i) * scattered((uint64_t)step * (uint64_t)(n + 1) + (uint64_t)i);
     set_rates(self);
     status = differentiate(self, -OFFSET, OFFSET);
-    memcpy(self->central, self->quotient, (size_t)self->motion->system.mh * sizeof(double));
+    zd_copy_all(self->motion->system.mh, self->quotient, self->central);
     for (int k = 0; !status && k < self->motion->system.mh; k++) {
         double size, quotient = self->central[k], off = given(self, k, &size) - quotient;
         if (fabs(off) > WRONG * fmax(size, fabs(quotient)) && is_sure(self, k, quotient, off, &status)) status = name_entry(self, k);

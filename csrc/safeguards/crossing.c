@@ -19,7 +19,6 @@
 #include "safeguards.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "../constraints/rank.h"
 #include "../constraints/rank_monitor.h"
@@ -36,12 +35,12 @@ static zd_crossing_memory *create_memory(zd_arena *arena, const zd_motion *motio
 {
     const zd_system *system = &motion->system;
     const int has_turn = !zd_has_many_constraints(motion->formulation, system);
-    const size_t m = (size_t)zd_constraints(system), n = (size_t)system->nv, stored = (size_t)zd_size_of_C(system);
+    const size_t m = zd_constraints(system), n = system->nv, stored = zd_size_of_C(system);
     zd_crossing_memory self = {
         .C = zd_arena_doubles(arena, stored),
         .previous = zd_arena_doubles(arena, stored),
-        .p = zd_arena_doubles(arena, (size_t)system->nq),
-        .p1 = zd_arena_doubles(arena, (size_t)system->nq),
+        .p = zd_arena_doubles(arena, system->nq),
+        .p1 = zd_arena_doubles(arena, system->nq),
         .v1 = zd_arena_doubles(arena, n),
         .turn = zd_arena_doubles(arena, has_turn ? m * m : 0),
         .order = zd_arena_ints(arena, m),
@@ -170,9 +169,9 @@ static int follow(zd_crossing *self, double h, int points, int *is_kept)
     const zd_crossing_memory *memory = self->memory;
     const int n = point->rank->n;
     const double t1 = point->t;
-    memcpy(memory->p1, point->p, (size_t)self->motion->system.nq * sizeof(double));
-    memcpy(memory->v1, point->v, (size_t)n * sizeof(double));
-    memcpy(memory->previous, memory->C, (size_t)zd_size_of_C(point->system) * sizeof(double));
+    zd_copy_all(self->motion->system.nq, point->p, memory->p1);
+    zd_copy_all(n, point->v, memory->v1);
+    zd_copy_all(zd_size_of_C(point->system), memory->C, memory->previous);
     int status = ZD_DONE;
     *is_kept = 1;
     for (int i = 1; i <= points && *is_kept && !status; i++) {

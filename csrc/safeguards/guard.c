@@ -52,9 +52,9 @@ zd_guard zd_guard_create(zd_arena *arena, zd_motion *motion, const zd_settings *
         .limit = resolved * resolved * resolved * resolved,
         .pause = ZD_CHECK_EVERY,
         .is_ample = 1,
-        .pdot = own ? zd_arena_doubles(arena, (size_t)system->nq) : last->v,
-        .rate = own ? zd_arena_doubles(arena, (size_t)system->nq) : motion->point ? motion->point->v : NULL,
-        .vdot = zd_arena_doubles(arena, (size_t)system->nv),
+        .pdot = own ? zd_arena_doubles(arena, system->nq) : last->v,
+        .rate = own ? zd_arena_doubles(arena, system->nq) : motion->point ? motion->point->v : NULL,
+        .vdot = zd_arena_doubles(arena, system->nv),
     };
 }
 
@@ -148,7 +148,7 @@ ZD_INLINE int evaluate_end(zd_guard *guard, int64_t next_step)
 void zd_guard_watch_next(zd_guard *guard)
 {
     const zd_point *point = guard->motion->point;
-    zd_copy_all(point->system->nv, point->vdot, guard->vdot);
+    zd_copy_few(point->system->nv, point->vdot, guard->vdot);
     guard->watches_step = 1;
 }
 

@@ -38,7 +38,7 @@ static double error_by_rate(int order)
 zd_resolution zd_resolution_create(zd_arena *arena, zd_motion *motion, int order, const zd_last *last, const double *vdot0,
                                  const double *pdot0, const double *pdot1)
 {
-    size_t n = (size_t)motion->system.nv, all = n + (size_t)motion->system.quaternions;
+    size_t n = motion->system.nv, all = n + (size_t)motion->system.quaternions;
     int by_velocity = (motion->system.provides & ZD_A) != 0;
     return (zd_resolution){
         .motion = motion,

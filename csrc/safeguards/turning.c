@@ -18,7 +18,7 @@ enum { ENTRIES = 4 };
 static size_t size_of_A(const zd_system *system)
 {
     if (zd_brings_times_A(system)) return 0;
-    return system->structure ? (size_t)zd_packed_size(system, ZD_A) : (size_t)system->nq * (size_t)system->nv;
+    return system->structure ? (size_t)zd_packed_size(system, ZD_A) : (size_t)system->nq * system->nv;
 }
 
 zd_turning zd_turning_create(zd_arena *arena, zd_motion *motion, const zd_last *last, const double *vdot0, const double *pdot0,
@@ -33,8 +33,8 @@ zd_turning zd_turning_create(zd_arena *arena, zd_motion *motion, const zd_last *
         .pdot0 = pdot0,
         .pdot1 = pdot1,
         .A0 = zd_arena_doubles(arena, size_of_A(system)),
-        .before = zd_arena_doubles(arena, (size_t)system->nq),
-        .after = zd_arena_doubles(arena, (size_t)system->nq),
+        .before = zd_arena_doubles(arena, system->nq),
+        .after = zd_arena_doubles(arena, system->nq),
     };
 }
 

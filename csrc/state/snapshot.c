@@ -13,9 +13,9 @@ zd_snapshot zd_snapshot_create(zd_arena *arena, const zd_stepper *stepper)
 {
     const zd_motion *motion = stepper->motion;
     const zd_system *system = &motion->system;
-    const size_t nv = (size_t)system->nv;
+    const size_t nv = system->nv;
     const int is_complete = !motion->formulation->update;     /* then y begins with p and v, as in zd_last */
-    double *y = zd_arena_doubles(arena, (size_t)stepper->capacity);
+    double *y = zd_arena_doubles(arena, stepper->capacity);
     zd_snapshot self = {
         .state = {.p = y, .v = y ? y + system->nq : NULL},
         .has_accelerations = !zd_has_input(system) && !motion->corrections_size && !(system->provides & ZD_A) && !motion->reactions.reading,
@@ -41,8 +41,8 @@ static void take_accelerations(zd_snapshot *self, const zd_motion *motion)
     zd_rank_find_multipliers(point);
     to->order = motion->path.order;
     to->smallest = motion->path.smallest;
-    zd_copy_all(motion->system.nv + zd_constraints(&motion->system), point->vdot, to->vdot);
-    if (to->order >= 0) zd_copy_all(motion->system.nv, motion->path.pivots, to->pivots);
+    zd_copy_few(motion->system.nv + zd_constraints(&motion->system), point->vdot, to->vdot);
+    if (to->order >= 0) zd_copy_few(motion->system.nv, motion->path.pivots, to->pivots);
 }
 
 static int restore_accelerations(const zd_snapshot *self, zd_motion *motion)
@@ -54,8 +54,8 @@ static int restore_accelerations(const zd_snapshot *self, zd_motion *motion)
     motion->point->known |= ZD_ACCELERATED;
     zd_rank_discard_awaited(motion->point);
     motion->path.smallest = from->smallest;
-    zd_copy_all(motion->system.nv + zd_constraints(&motion->system), from->vdot, motion->point->vdot);
-    if (from->order >= 0) zd_copy_all(motion->system.nv, from->pivots, motion->path.pivots);
+    zd_copy_few(motion->system.nv + zd_constraints(&motion->system), from->vdot, motion->point->vdot);
+    if (from->order >= 0) zd_copy_few(motion->system.nv, from->pivots, motion->path.pivots);
     return ZD_DONE;
 }
 
@@ -92,7 +92,7 @@ void zd_snapshot_take(zd_snapshot *self, zd_stepper *stepper, int sections)
 {
     self->sections = sections;
     self->state.t = stepper->t;
-    zd_copy_all(stepper->motion->rate.size, stepper->y, self->y);
+    zd_copy_few(stepper->motion->rate.size, stepper->y, self->y);
     if (self->state.p != self->y) zd_stepper_save_state(stepper, &self->state);
     if (sections & ZD_ACCELERATIONS) take_accelerations(self, stepper->motion);
     if (sections & (ZD_VARIABLES | ZD_MEMORY)) take_choice(self, stepper);
@@ -109,7 +109,7 @@ int zd_snapshot_restore(zd_snapshot *self, zd_stepper *stepper)
     else status = zd_stepper_return_to(stepper, &self->state);
     stepper->t = self->state.t;
     stepper->motion->state = stepper->y;
-    zd_copy_all(stepper->motion->rate.size, self->y, stepper->y);
+    zd_copy_few(stepper->motion->rate.size, self->y, stepper->y);
     if (has_choice) restore_flags(self, stepper->motion->point->rank);
     return status || !(self->sections & ZD_ACCELERATIONS) ? status : restore_accelerations(self, stepper->motion);
 }

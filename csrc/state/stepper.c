@@ -1,6 +1,5 @@
 #include "stepper.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "../constraints/rank.h"
@@ -12,7 +11,7 @@ void zd_stepper_create(zd_stepper *self, zd_arena *arena, zd_motion *motion, con
 {
     const zd_system *system = &motion->system;
     int own = motion->formulation_size, more = dependent.size > own ? dependent.size - own : 0;
-    size_t size = (size_t)(motion->rate.size + more);
+    size_t size = motion->rate.size + more;
     double *y = zd_arena_doubles(arena, size), *last = zd_arena_doubles(arena, size);
     const size_t used = arena->used;
     void *memory = integrator->create(arena, integrator->table, motion, y, (int)size, given);
@@ -30,8 +29,8 @@ void zd_stepper_create(zd_stepper *self, zd_arena *arena, zd_motion *motion, con
         .y = y,
         .last = {
             .y = last,
-            .p = is_complete ? last : zd_arena_doubles(arena, (size_t)system->nq),
-            .v = !is_complete ? zd_arena_doubles(arena, (size_t)system->nv) : last ? last + system->nq : NULL,
+            .p = is_complete ? last : zd_arena_doubles(arena, system->nq),
+            .v = !is_complete ? zd_arena_doubles(arena, system->nv) : last ? last + system->nq : NULL,
         },
     };
     zd_motion_attach(motion, self->y);
@@ -47,10 +46,10 @@ void zd_stepper_save_start(zd_stepper *self, double h)
     self->last.h = h;
     point->rank->was_ill_conditioned = 0;
     if (self->last.chosen) memcpy(self->last.chosen, motion->memory_of_chosen.at, motion->memory_of_chosen.bytes);
-    zd_copy_all(motion->rate.size, self->y, self->last.y);
+    zd_copy_few(motion->rate.size, self->y, self->last.y);
     if (self->last.p == self->last.y) return;
-    zd_copy_all(point->system->nq, point->p, self->last.p);
-    zd_copy_all(point->system->nv, point->v, self->last.v);
+    zd_copy_few(point->system->nq, point->p, self->last.p);
+    zd_copy_few(point->system->nv, point->v, self->last.v);
 }
 
 int zd_stepper_make(zd_stepper *self, double h)
@@ -88,14 +87,14 @@ int zd_stepper_set_state(zd_stepper *self, double t, const double *p, const doub
 
 static size_t extras(const zd_motion *motion)
 {
-    return (size_t)(motion->rate.size - motion->formulation_size);
+    return motion->rate.size - motion->formulation_size;
 }
 
 zd_state zd_state_create(zd_arena *arena, const zd_motion *motion)
 {
     return (zd_state){
-        .p = zd_arena_doubles(arena, (size_t)motion->system.nq),
-        .v = zd_arena_doubles(arena, (size_t)motion->system.nv),
+        .p = zd_arena_doubles(arena, motion->system.nq),
+        .v = zd_arena_doubles(arena, motion->system.nv),
         .extra = zd_arena_doubles(arena, extras(motion)),
     };
 }
@@ -104,8 +103,8 @@ void zd_stepper_save_state(const zd_stepper *self, zd_state *place)
 {
     const zd_motion *motion = self->motion;
     place->t = self->t;
-    zd_copy_all(motion->system.nq, motion->point->p, place->p);
-    zd_copy_all(motion->system.nv, motion->point->v, place->v);
+    zd_copy_few(motion->system.nq, motion->point->p, place->p);
+    zd_copy_few(motion->system.nv, motion->point->v, place->v);
     if (extras(motion)) memcpy(place->extra, self->y + motion->formulation_size, extras(motion) * sizeof(double));
 }
 

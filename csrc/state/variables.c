@@ -32,7 +32,7 @@ static void use(zd_stepper *stepper, const zd_variables *variables, const double
 {
     zd_motion *motion = stepper->motion;
     int size = motion->rate.size - motion->formulation_size;
-    memmove(stepper->y + variables->size, along, (size_t)size * sizeof *along);
+    memmove(stepper->y + variables->size, along, size * sizeof *along);
     motion->formulation = variables->formulation;
     motion->solver = variables->solver;
     motion->drifts_from = variables->formulation->drifts_from;
@@ -52,7 +52,7 @@ int zd_variables_use_dependent(zd_stepper *stepper)
     zd_point_move(motion->point, last->t, last->p, last->v);
     use(stepper, &stepper->dependent, last->y + motion->formulation_size);
     /* This near a bifurcation, the constraints must be satisfied far better than the tolerance requires, and can be. */
-    int status = zd_motion_correct(motion, 0, 1);
+    int status = zd_motion_correct(motion);
     return status ? status : motion->formulation->pack(motion->solver, motion->point, stepper->y);
 }
 

@@ -22,7 +22,7 @@ zd_control zd_adaptive_create(zd_arena *arena, const zd_stepper *stepper, double
 {
     return (zd_control){
         .histogram = zd_step_histogram_create(arena, t0),
-        .scale = zd_arena_doubles(arena, (size_t)stepper->capacity),
+        .scale = zd_arena_doubles(arena, stepper->capacity),
         .collapse = zd_collapse_create(arena, stepper->motion->system.nv),
     };
 }

@@ -10,7 +10,8 @@
 #include "step_loop.h"
 
 #include <math.h>
-#include <string.h>
+
+#include "../linalg/small.h"
 
 static const double SPARE = 10;             /* ratio of the steps needed to those that are allowed */
 static const double MIN_ALLOWED = 1e6;    /* steps that are assumed to be allowed, at least */
@@ -19,8 +20,8 @@ static const double LITTLE = 16;            /* change of the state in a step, in
 zd_collapse zd_collapse_create(zd_arena *arena, int nv)
 {
     return (zd_collapse){
-        .rate = zd_arena_doubles(arena, (size_t)nv),
-        .change = zd_arena_doubles(arena, (size_t)nv),
+        .rate = zd_arena_doubles(arena, nv),
+        .change = zd_arena_doubles(arena, nv),
     };
 }
 
@@ -53,7 +54,7 @@ int zd_collapse_count(zd_collapse *self, const zd_stepper *stepper, double h, co
     if (is_far(stepper, scale)) return ZD_DONE;
     if (!self->count) {
         self->t = stepper->last.t;
-        memset(self->change, 0, (size_t)point->system->nv * sizeof *self->change);
+        zd_clear(point->system->nv, self->change);
     }
     add_changes(self, point, stepper->last.v, h);
     self->h = h;

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../linalg/small.h"
 #include "../point/point.h"
 
 typedef struct holding {    /* arguments of create() */
@@ -42,7 +43,7 @@ static void name_of_constraint(const void *names, int row, char *to, int size)
     }
     int i = 0;
     for (int left = row - rows; !held->hold[i] || left-- > 0;) i++;
-    snprintf(to, (size_t)size, "%s[%d] is held", held->of_positions ? "p" : "v", i);
+    snprintf(to, size, "%s[%d] is held", held->of_positions ? "p" : "v", i);
 }
 
 static int count(const int *hold, int n)
@@ -78,14 +79,14 @@ static zd_structure create_structure(zd_arena *arena, const holding *it, int row
     const zd_structure *inner = it->inner->structure;
     const int groups = groups_of(inner, rows), touched = inner->groups ? inner->first[groups] : 0;
     zd_structure structure = *inner;
-    int *rows_of = zd_arena_ints(arena, (size_t)(groups + inner->blocks));
-    int *first = zd_arena_ints(arena, (size_t)(groups + inner->blocks + 1));
-    int *block = zd_arena_ints(arena, (size_t)(touched + inner->blocks));
+    int *rows_of = zd_arena_ints(arena, groups + inner->blocks);
+    int *first = zd_arena_ints(arena, groups + inner->blocks + 1);
+    int *block = zd_arena_ints(arena, touched + inner->blocks);
     if (!arena->base) return structure;
     if (groups) {
-        memcpy(rows_of, inner->rows, (size_t)groups * sizeof(int));
-        memcpy(first, inner->first, (size_t)(groups + 1) * sizeof(int));
-        memcpy(block, inner->block, (size_t)touched * sizeof(int));
+        memcpy(rows_of, inner->rows, groups * sizeof(int));
+        memcpy(first, inner->first, (groups + 1) * sizeof(int));
+        memcpy(block, inner->block, touched * sizeof(int));
     }
     structure.groups = groups;
     for (int b = 0, i = 0; b < inner->blocks; b++) {
@@ -114,11 +115,6 @@ static zd_terms inner_terms(const zd_system *inner, const zd_terms *out)
     return terms;
 }
 
-static void copy(double *to, const double *from, int entries)
-{
-    if (entries) memcpy(to, from, (size_t)entries * sizeof *to);
-}
-
 /* Writes row i of A (coordinates, n) of a body; A NULL: the identity. Returns the end of the row. */
 static double *write_row(int n, const double *A, int i, double *row)
 {
@@ -133,8 +129,8 @@ static int evaluate_positions(const void *data, int want, double t, const double
     const zd_terms terms = inner_terms(inner, out);
     int status = inner->evaluate(inner->data, (want | ZD_A) & (inner->provides | ZD_MOVED), t, p, v, &terms);
     if (status) return status;
-    if (want & ZD_C) copy(out->C, terms.C, held->size_of_C);
-    if (want & ZD_A) copy(out->A, terms.A, size_of_A(inner));
+    if (want & ZD_C) zd_copy_all(held->size_of_C, terms.C, out->C);
+    if (want & ZD_A) zd_copy_all(size_of_A(inner), terms.A, out->A);
     const double *A = inner->provides & ZD_A ? terms.A : NULL;
     double *C = out->C + held->size_of_C;
     for (int b = 0, i = 0, row = inner->mh; b < blocks_of(inner); b++) {
@@ -157,7 +153,7 @@ static int evaluate_velocities(const void *data, int want, double t, const doubl
     const int m = zd_constraints(inner);
     int status = inner->evaluate(inner->data, want & (inner->provides | ZD_MOVED), t, p, v, out);
     if (status) return status;
-    if ((want & ZD_PHI_T) && !(inner->provides & ZD_PHI_T)) memset(out->Phi_t, 0, (size_t)m * sizeof(double));
+    if ((want & ZD_PHI_T) && !(inner->provides & ZD_PHI_T)) zd_clear(m, out->Phi_t);
     double *C = out->C + held->size_of_C;
     for (int b = 0, i = 0, row = m; held->hold && b < blocks_of(inner); b++) {
         const int n = velocities_of(inner, b);
@@ -189,7 +185,7 @@ static int magnitudes(const void *data, double t, const double *p, const double 
     const int rows = kept + count(held->hold, held->of_positions ? inner->nq - inner->followers : inner->nv);
     double *of_inner = scratch + inner->magnitudes_scratch;
     const int status = inner->magnitudes(inner->data, t, p, v, of_inner, scratch);
-    copy(magnitude, of_inner, 2 * kept);
+    zd_copy_all(2 * kept, of_inner, magnitude);
     for (int i = 2 * kept; i < 2 * rows; i++) magnitude[i] = 1;
     return status;
 }

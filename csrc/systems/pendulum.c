@@ -9,7 +9,6 @@
  * Divided by 2 L, Phi is to first order the distance from the circle in m and C a unit vector: C M^-1 C^T = 1 / m at any length,
  * and lambda is the tension of the rod in N.
  */
-#include <math.h>
 #include <string.h>
 
 #include "../include/zerodrift/sines.h"

@@ -17,7 +17,7 @@ enum { MOST = 64, BODY = 3, MAX_BODIES = MOST / BODY };
 
 static int read_doubles(double *to, size_t count) { return fread(to, sizeof *to, count, stdin) == count; }
 
-static void *create_monitor(zd_arena *arena, const void *system) { return zd_rank_monitor_create(arena, system, NULL, NULL); }
+static void *create_monitor(zd_arena *arena, const void *system) { return zd_rank_monitor_create(arena, system, 0, NULL, NULL); }
 
 static void say(const char *which, int is_doubtful, int was_turned) { printf("%s %d %d\n", which, is_doubtful, was_turned); }
 
@@ -62,7 +62,7 @@ static void *create_packed(zd_arena *arena, const void *of)
 {
     packed self = *(const packed *)of;
     self.layout = zd_layout_create(arena, &self.system);
-    self.monitor = zd_rank_monitor_create(arena, &self.system, NULL, NULL);
+    self.monitor = zd_rank_monitor_create(arena, &self.system, 0, NULL, NULL);
     self.C = zd_arena_doubles(arena, (size_t)zd_size_of_C(&self.system));
     return zd_arena_copy(arena, &self, sizeof self);
 }

@@ -28,17 +28,17 @@ zd_lane_inputs zd_lane_inputs_create(zd_arena *arena, const zd_open_runs *runs, 
     const zd_run *run = runs->run[first];
     const zd_inputs *inputs = run->settings.inputs;
     if (!inputs) return (zd_lane_inputs){0};
-    const size_t values = (size_t)count * (size_t)inputs->count;
+    const size_t values = (size_t)count * inputs->count;
     zd_lane_inputs self = {
         .count = inputs->count,
         .places = inputs->places,
-        .place = zd_arena_bytes(arena, (size_t)inputs->places * sizeof *self.place),
-        .derive = zd_arena_bytes(arena, (size_t)inputs->derivations * sizeof *self.derive),
-        .value = zd_arena_bytes(arena, (size_t)count * sizeof *self.value),
+        .place = zd_arena_bytes(arena, inputs->places * sizeof *self.place),
+        .derive = zd_arena_bytes(arena, inputs->derivations * sizeof *self.derive),
+        .value = zd_arena_bytes(arena, count * sizeof *self.value),
         .held = zd_arena_doubles(arena, values),
         .lower = zd_arena_doubles(arena, values),
         .upper = zd_arena_doubles(arena, values),
-        .numbers = zd_arena_doubles(arena, (size_t)runs->doubles)};
+        .numbers = zd_arena_doubles(arena, runs->doubles)};
     for (int i = 0; self.place && i < inputs->places; i++)
         self.place[i] = place_of(run, runs->data[first], runs->doubles, inputs->place + i);
     for (int i = 0; i < inputs->derivations; i++)
@@ -72,7 +72,7 @@ int zd_lane_inputs_enter(zd_open_lanes *self, int64_t i)
     const zd_inputs *inputs = run->settings.inputs;
     if (!inputs) return 0;
     const int64_t k = i - self->first, begin = k * inputs->count;
-    const size_t bytes = (size_t)inputs->count * sizeof(double);
+    const size_t bytes = inputs->count * sizeof(double);
     const int is_new = run->held.is_new;
     if (is_new) zd_inputs_write(run);
     self->inputs.value[k] = inputs->value;
@@ -87,7 +87,7 @@ void zd_lane_inputs_put_back(zd_open_lanes *self, int64_t i, int has_moved)
     zd_run *run = self->runs->run[i];
     zd_lane_slot *place = self->place + (i - self->first);
     if (!place->is_behind) return;
-    const size_t count = (size_t)self->inputs.count;
+    const size_t count = self->inputs.count;
     memcpy(run->held.value, self->inputs.held + (size_t)(i - self->first) * count, count * sizeof(double));
     run->held.is_new = 1;       /* the step that it makes itself begins with them */
     if (!has_moved) return;
@@ -120,8 +120,9 @@ int zd_lane_inputs_read(zd_open_lanes *self, int lane, int64_t i)
     double *held = inputs->held + begin;
     for (int j = 0; j < inputs->count; j++)
         if (!isfinite(value[j]) || value[j] < inputs->lower[begin + j] || value[j] > inputs->upper[begin + j]) return -1;
-    if (!memcmp(held, value, (size_t)inputs->count * sizeof *held)) return 0;
-    memcpy(held, value, (size_t)inputs->count * sizeof *held);
+    const size_t bytes = inputs->count * sizeof *held;
+    if (!memcmp(held, value, bytes)) return 0;
+    memcpy(held, value, bytes);
     self->place[k].is_behind = 1;
     write(self, lane, held);
     return 1;

@@ -43,11 +43,11 @@ static zd_open_lanes *lay_out(zd_arena *arena, const zd_open_runs *runs, int64_t
     self->lanes.rounds_products = 1;
     self->lanes.end = INFINITY;
     self->lanes.steps = -1;         /* no step is the last one */
-    self->numbers = (size_t)(self->lanes.states * functions->lanes);
+    self->numbers = self->lanes.states * functions->lanes;
     self->image = zd_arena_doubles(arena, (size_t)groups * self->numbers);
-    self->place = zd_arena_bytes(arena, (size_t)count * sizeof *self->place);
+    self->place = zd_arena_bytes(arena, count * sizeof *self->place);
     self->inputs = zd_lane_inputs_create(arena, runs, first, count);
-    self->goal = zd_arena_bytes(arena, (size_t)functions->lanes * sizeof *self->goal);
+    self->goal = zd_arena_bytes(arena, functions->lanes * sizeof *self->goal);
     return here;
 }
 
@@ -56,8 +56,7 @@ zd_open_lanes *zd_open_lanes_create(const zd_open_runs *runs, int64_t first, int
     zd_arena arena = {0};
     if (!count || !are_served(runs, runs->run[first])) return NULL;
     lay_out(&arena, runs, first, count);
-    arena = (zd_arena){.base = zd_allocate(arena.used)};
-    return arena.base ? lay_out(&arena, runs, first, count) : NULL;
+    return zd_arena_allocate(&arena) ? lay_out(&arena, runs, first, count) : NULL;
 }
 
 void zd_open_lanes_free(zd_open_lanes *self)

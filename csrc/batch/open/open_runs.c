@@ -1,5 +1,4 @@
 /* Open runs that are advanced together: each has the bits that it has alone. */
-#include <math.h>
 #include <string.h>
 
 #include "../../run/run.h"
@@ -10,7 +9,7 @@ static void read_state(const zd_open_runs *self, int64_t i)
 {
     const zd_run *run = self->run[i];
     const zd_system *system = &run->motion.system;
-    const size_t nq = (size_t)system->nq, nv = (size_t)system->nv;
+    const size_t nq = system->nq, nv = system->nv;
     self->t[i] = zd_run_time(run);
     memcpy(self->p + (size_t)i * nq, zd_run_p(run), nq * sizeof(double));
     memcpy(self->v + (size_t)i * nv, zd_run_v(run), nv * sizeof(double));

@@ -16,7 +16,6 @@
 #include "structured.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "../../constraints/rank.h"
 #include "../../linalg/small.h"
@@ -35,11 +34,11 @@ static const double RESIDUAL_ROUNDING = 4 * 0x1p-52;     /* residual relative to
 static void *create(zd_arena *arena, const void *of)
 {
     const zd_system *system = of;
-    const size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
+    const size_t n = system->nv, m = zd_constraints(system);
     zd_bodywise self = {
         .weight = zd_arena_doubles(arena, m),
         .least_weight = zd_arena_doubles(arena, m),
-        .inverse = zd_arena_doubles(arena, (size_t)zd_size_of_M(system)),
+        .inverse = zd_arena_doubles(arena, zd_size_of_M(system)),
         .unbalanced = zd_arena_doubles(arena, n),
         .step = zd_arena_doubles(arena, n),
         .residual = zd_arena_doubles(arena, m),
@@ -216,7 +215,7 @@ static double improve(zd_bodywise *self, zd_bodies *bodies, const double *weight
 static double find_multipliers(zd_bodywise *self, zd_bodies *bodies, const double *weight, const double *force, const double *x)
 {
     double before = INFINITY, left = INFINITY;
-    memset(self->lambda, 0, (size_t)zd_constraints(self->point->system) * sizeof *self->lambda);
+    zd_clear(zd_constraints(self->point->system), self->lambda);
     for (int i = 0; i < MAX_FOR_MULTIPLIERS; i++) {
         left = find_unbalanced(self, force, x);
         if (!(left > RESIDUAL_ROUNDING) || (i > 1 && !(left < 0.9 * before))) break;
@@ -265,11 +264,11 @@ static void iterate(zd_bodywise *self, const double *force, const double *rhs, d
 void zd_bodywise_solve(zd_bodywise *self, const double *force, const double *rhs, double *x, double *lambda)
 {
     const int n = self->point->system->nv, m = zd_constraints(self->point->system);
-    memset(x, 0, (size_t)n * sizeof *x);
-    memset(self->lambda, 0, (size_t)m * sizeof *x);
+    zd_clear(n, x);
+    zd_clear(m, self->lambda);
     iterate(self, force, rhs, x);
     if (!lambda) return;
     const int is_least = need_least(self) && find_multipliers(self, self->for_least, self->least_weight, force, x) < BALANCED;
     if (!is_least) (void)find_multipliers(self, self->bodies, self->weight, force, x);
-    memcpy(lambda, self->lambda, (size_t)m * sizeof *lambda);
+    zd_copy_all(m, self->lambda, lambda);
 }

@@ -14,10 +14,10 @@
 #include "partition.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "../../constraints/rank.h"
 #include "../../linalg/iteration.h"
+#include "../../linalg/small.h"
 #include "../../point/point.h"
 
 enum { MANY_JOINTS = 12 };      /* joints of a body above which it is eliminated last, as it would couple all its neighbours */
@@ -80,7 +80,7 @@ static void find_order(const zd_layout *layout, const int *reached, int *order)
 static zd_bodies *create_bodies(zd_store *store, const zd_point *point)
 {
     const zd_layout *layout = point->layout;
-    const size_t blocks = (size_t)layout->blocks;
+    const size_t blocks = layout->blocks;
     int *reached = zd_allocate(2 * blocks * sizeof *reached);
     char *is_reached = zd_allocate(blocks + (size_t)layout->groups);
     zd_bodies *bodies = NULL;
@@ -96,10 +96,10 @@ static zd_bodies *create_bodies(zd_store *store, const zd_point *point)
 
 zd_partition *zd_partition_create(zd_arena *arena, int nv, int rows, int independents)
 {
-    const size_t n = (size_t)nv, m = (size_t)rows;
+    const size_t n = nv, m = rows;
     zd_partition self = {
         .independents = independents,
-        .index = zd_arena_ints(arena, (size_t)independents),
+        .index = zd_arena_ints(arena, independents),
         .left_out = zd_arena_bytes(arena, n),
         .weight = zd_arena_doubles(arena, m),
         .residual = zd_arena_doubles(arena, m),
@@ -195,7 +195,7 @@ int zd_partition_solve(zd_partition *self, const double *rhs, double *x)
     const int n = self->bodies->blocks->rows;
     double before = INFINITY, left = find_residual(self, rhs, x);
     for (int i = 0; i < ZD_MAX_REFINEMENTS && left > ZD_RESIDUAL_ROUNDING && left < 0.5 * before; i++) {
-        memset(self->b, 0, (size_t)n * sizeof *self->b);
+        zd_clear(n, self->b);
         for (int k = 0; k < self->rows; k++) {
             const zd_row_of_C row = zd_packed_row(self->bodies->layout, self->C, k);
             for (int j = 0; j < row.count; j++) self->b[row.column[j]] += row.x[j] * (self->weight[k] * self->residual[k]);

@@ -1,7 +1,6 @@
 #include "partition.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "../../linalg/iteration.h"
 #include "../../linalg/small.h"
@@ -23,10 +22,10 @@ zd_partition_sparse *zd_partition_sparse_create(zd_arena *arena, const zd_system
         .of_p = system->mn ? zd_partition_create(arena, system->nv, rows, k) : of_v,
         .size = size,
         .k = k,
-        .u = zd_arena_doubles(arena, (size_t)system->nv),
-        .rhs = zd_arena_doubles(arena, (size_t)rows),
-        .x = zd_arena_doubles(arena, (size_t)system->nv),
-        .p = zd_arena_doubles(arena, (size_t)system->nq),
+        .u = zd_arena_doubles(arena, system->nv),
+        .rhs = zd_arena_doubles(arena, rows),
+        .x = zd_arena_doubles(arena, system->nv),
+        .p = zd_arena_doubles(arena, system->nq),
     };
     return zd_arena_copy(arena, &self, sizeof self);
 }
@@ -55,7 +54,7 @@ int zd_partition_sparse_update(zd_partition_sparse *self, zd_point *point)
     if (status) return status;
     point->known |= ZD_COMPLEMENTED;
     const double *Phi_t = point->terms.Phi_t;
-    memset(self->x, 0, (size_t)point->system->nv * sizeof *self->x);
+    zd_clear(point->system->nv, self->x);
     for (int j = 0; j < self->size; j++) self->x[self->of_v->index[j]] = self->u[j];
     for (int k = 0; k < zd_constraints(point->system); k++) self->rhs[k] = Phi_t ? -Phi_t[k] : 0;
     status = zd_partition_solve(self->of_v, self->rhs, self->x);        /* (14) */
@@ -66,7 +65,7 @@ int zd_partition_sparse_update(zd_partition_sparse *self, zd_point *point)
 void zd_partition_sparse_express_speeds(zd_partition_sparse *self, const zd_point *point, double *u)
 {
     zd_partition_sparse_pick_speeds(self, point->v, self->u);
-    memcpy(u, self->u, (size_t)self->size * sizeof *u);
+    zd_copy_all(self->size, self->u, u);
 }
 
 int zd_partition_sparse_speeds(zd_partition_sparse *self, zd_point *point, double *u)
@@ -143,7 +142,7 @@ static int improve(void *context)
     int status = zd_partition_factor(self->of_p, point);
     if (!status || status == ZD_SINGULAR) note_condition(self->of_p, point);
     if (status) return status;
-    memset(self->x, 0, (size_t)point->system->nv * sizeof *self->x);
+    zd_clear(point->system->nv, self->x);
     for (int k = 0; k < point->system->mh; k++) self->rhs[k] = -point->terms.Phi[k];
     status = zd_partition_solve(self->of_p, self->rhs, self->x);
     for (int i = 0; i < point->system->nq; i++) self->p[i] = point->p[i] + self->x[i];

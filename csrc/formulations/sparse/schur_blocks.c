@@ -32,11 +32,11 @@ zd_schur_blocks *zd_schur_blocks_create(zd_arena *arena, const zd_system *system
     for (int g = 0; structure && g < structure->groups; g++) rows += structure->rows[g];
     const int has_redundant = rows != zd_constraints(system);
     if (!structure || (has_redundant && zd_rank_is_of_many(system))) return NULL;
-    size_t n = (size_t)system->nv, m = (size_t)rows, of_redundant = has_redundant ? m : 0;
+    size_t n = system->nv, m = rows, of_redundant = has_redundant ? m : 0;
     zd_schur_blocks self = {
         .n = (int)n,
         .m = (int)m,
-        .W = zd_arena_doubles(arena, (size_t)zd_size_of_M(system)),
+        .W = zd_arena_doubles(arena, zd_size_of_M(system)),
         .is_diagonal = zd_mass_is(system, ZD_DIAGONAL),
         .is_constant = zd_mass_is(system, ZD_CONSTANT),
         .force = zd_arena_doubles(arena, n),
@@ -100,7 +100,7 @@ static int invert_mass(zd_schur_blocks *self, zd_point *point)
 static zd_pivots factor_chosen(zd_schur_blocks *self)
 {
     const zd_selection *chosen = self->chosen;
-    memset(self->without, 0, (size_t)self->weighted->blocks->rows);
+    memset(self->without, 0, self->weighted->blocks->rows);
     for (int d = chosen->independent; d < self->m; d++) self->without[self->weighted->row_groups.place[chosen->row[d]]] = 1;
     self->begun = (zd_right_side){NULL, NULL, NULL};
     return zd_weighted_factor_without(self->weighted, self->C, self->W, self->without);
@@ -135,17 +135,12 @@ static int is_to_be_compared(zd_schur_blocks *self)
     return 1;
 }
 
-static void *create_without(zd_arena *arena, const void *weighted)
-{
-    return zd_arena_bytes(arena, (size_t)((const zd_weighted *)weighted)->blocks->rows);
-}
-
 /* Allocates the symbolic structure at the first call; returns 0 without memory. */
 static int has_symbolic(zd_schur_blocks *self, const zd_point *point)
 {
     zd_store *store = point->rank->store;
     if (!self->weighted) self->weighted = zd_weighted_create(store, point->layout);
-    if (self->weighted && self->has_redundant && !self->without) self->without = zd_store_create(store, create_without, self->weighted);
+    if (self->weighted && self->has_redundant && !self->without) self->without = zd_store_bytes(store, self->weighted->blocks->rows);
     return self->weighted && (self->without || !self->has_redundant);
 }
 
@@ -199,7 +194,7 @@ static void subtract_weighted(zd_schur_blocks *self, const double *y, double *x)
 {
     const zd_row_groups *row_groups = &self->weighted->row_groups;
     if (!self->products) {
-        zd_row_groups_subtract_weighted(row_groups, self->C, self->W, y, x);
+        zd_row_groups_subtract(row_groups, self->C, self->W, y, x);
         return;
     }
     self->products->subtract_weighted(self->data, &self->terms, self->W, y, row_groups->place, x);
@@ -209,7 +204,7 @@ static void subtract_weighted(zd_schur_blocks *self, const double *y, double *x)
 static void finish(zd_schur_blocks *self, const double *force, double *x)
 {
     double *y = self->weighted->blocks->x;
-    const size_t bytes = (size_t)self->n * sizeof *x;
+    const size_t bytes = self->n * sizeof *x;
     zd_blocks_backward(self->weighted->blocks, y);
     if (self->is_diagonal) {
         if (!force) memset(x, 0, bytes);
@@ -218,7 +213,7 @@ static void finish(zd_schur_blocks *self, const double *force, double *x)
     }
     if (force) memcpy(self->force, force, bytes);
     else memset(self->force, 0, bytes);
-    zd_weighted_subtract_transposed(self->weighted, self->C, y, self->force);
+    zd_row_groups_subtract(&self->weighted->row_groups, self->C, NULL, y, self->force);
     times_W(self, self->force, x);                                                          /* (13), (27) */
 }
 
@@ -238,7 +233,7 @@ static double find_residual(const zd_schur_blocks *self, const double *rhs, cons
 
 static void add_multipliers(zd_schur_blocks *self, double *lambda)
 {
-    zd_weighted_scatter(self->weighted, self->weighted->blocks->x, self->residual);
+    zd_row_groups_scatter(&self->weighted->row_groups, self->weighted->blocks->x, self->residual);
     for (int k = 0; k < self->m; k++) lambda[k] += self->residual[k];
 }
 
@@ -263,7 +258,7 @@ static void solve_all(zd_schur_blocks *self, const double *force, const double *
     if (!has_begun) zd_blocks_forward(self->weighted->blocks, begin(self, &(zd_right_side){force, rhs, x}));
     self->begun = (zd_right_side){NULL, NULL, NULL};
     finish(self, force, x);
-    if (lambda) zd_weighted_scatter(self->weighted, self->weighted->blocks->x, lambda);
+    if (lambda) zd_row_groups_scatter(&self->weighted->row_groups, self->weighted->blocks->x, lambda);
     if (self->is_compared) refine(self, rhs, x, lambda);
 }
 
@@ -274,7 +269,7 @@ void zd_schur_blocks_solve(zd_schur_blocks *self, const double *force, const dou
         solve_all(self, force, rhs, x, lambda);
         return;
     }
-    memset(self->rhs_of_all, 0, (size_t)self->m * sizeof *rhs);
+    zd_clear(self->m, self->rhs_of_all);
     for (int a = 0; a < chosen->independent; a++) self->rhs_of_all[chosen->row[a]] = rhs[a];
     solve_all(self, force, self->rhs_of_all, x, lambda ? self->lambda_of_all : NULL);
     for (int a = 0; lambda && a < chosen->independent; a++) lambda[a] = self->lambda_of_all[chosen->row[a]];

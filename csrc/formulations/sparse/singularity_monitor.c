@@ -15,8 +15,8 @@ static void *create(zd_arena *arena, const void *of)
 {
     const plan *it = of;
     zd_singularity_monitor self = {
-        .W = zd_arena_doubles(arena, (size_t)zd_size_of_M(it->point->system)),
-        .without = zd_arena_bytes(arena, (size_t)it->rows),
+        .W = zd_arena_doubles(arena, zd_size_of_M(it->point->system)),
+        .without = zd_arena_bytes(arena, it->rows),
     };
     return zd_arena_copy(arena, &self, sizeof self);
 }

@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "../../linalg/dense.h"
-#include "../../linalg/iteration.h"
 
 /* A power of two above the largest entry of a row of gamma / h - J, so that rows compare */
 static double size_of_row(const zd_radau_matrices *self, int i, double h)

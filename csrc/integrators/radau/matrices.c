@@ -2,7 +2,7 @@
 
 zd_radau_matrices zd_radau_matrices_create(zd_arena *arena, int size)
 {
-    const size_t n = (size_t)size;
+    const size_t n = size;
     return (zd_radau_matrices){
         .size = size,
         .differences = zd_differences_create(arena, size),

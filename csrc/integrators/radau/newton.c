@@ -21,7 +21,7 @@ static const double STALLED = 0.5;              /* ratio of two successive chang
 
 zd_radau_newton zd_radau_newton_create(zd_arena *arena, const zd_rate *rate, const double *y, int size)
 {
-    const size_t n = (size_t)size;
+    const size_t n = size;
     zd_radau_newton self = {
         .size = size,
         .f = zd_arena_doubles(arena, STAGES * n),

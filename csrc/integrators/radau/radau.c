@@ -11,7 +11,6 @@
  * and when to make J anew.
  */
 #include <math.h>
-#include <string.h>
 
 #include "../../linalg/small.h"
 #include "iteration.h"
@@ -49,7 +48,7 @@ static int suits(const zd_system *system)
 static void *create(zd_arena *arena, const void *table, zd_motion *motion, double *y, int size, const void *given)
 {
     (void)table, (void)given;
-    const size_t n = (size_t)size;
+    const size_t n = size;
     radau self = {
         .newton = zd_radau_newton_create(arena, &motion->rate, y, size),
         .f0 = zd_arena_doubles(arena, n),
@@ -66,7 +65,7 @@ static void start(radau *self)
 {
     zd_radau_newton *it = &self->newton;
     const int n = it->size;
-    memset(it->z, 0, (size_t)(STAGES * n) * sizeof(double));
+    zd_clear(STAGES * n, it->z);
     if (self->previous_h == 0) return;
     for (int s = 0; s < STAGES; s++)
         for (int i = 0; i < n; i++)
@@ -85,7 +84,7 @@ static void save_step(radau *self, double t, double h, const zd_rate *rate)
     }
     const double end = it->t0 + it->h;
     if (it->h != 0 && fabs(t - end) <= CHANGE_ROUNDING * fabs(end)) {
-        memcpy(self->before, it->z, (size_t)(STAGES * it->size) * sizeof *it->z);
+        zd_copy_all(STAGES * it->size, it->z, self->before);
         self->previous_h = it->h;
         if (it->by_stages) zd_radau_stages_give_J(&it->stages, &it->matrices);
     } else if (t != it->t0) self->previous_h = 0;
@@ -149,13 +148,13 @@ static int step(void *memory, const zd_rate *rate, double t, double h, double *y
     int status = zd_rate_of_beginning(rate, t, y, self->f0);
     if (status) return status;
     it->matrices.differences.min_size = MIN_INCREMENT * zd_max_abs(rate->size, y);
-    memcpy(self->seen_before, it->seen, (size_t)rate->size * sizeof *it->seen);
+    zd_copy_all(rate->size, it->seen, self->seen_before);
     for (int i = 0; i < rate->size; i++) it->seen[i] = fmax(it->seen[i], fabs(y[i]) + fabs(h * self->f0[i]));
     status = solve_somehow(self, y, statistics);
     it->has_scale = 0;
     it->matrices.has_J = !status && (it->contraction <= SLOW || it->iterations <= 2);
     if (status) {
-        memcpy(it->seen, self->seen_before, (size_t)rate->size * sizeof *it->seen);
+        zd_copy_all(rate->size, self->seen_before, it->seen);
         it->contraction = 1;
         it->h = 0;
         return status == ZD_NO_CONVERGENCE || status == ZD_NOT_FINITE ? ZD_NO_STEP : status;
@@ -171,7 +170,7 @@ static void set_scale(void *memory, int size, const double *scale)
 {
     radau *self = memory;
     zd_radau_newton *it = &self->newton;
-    memcpy(it->scale, scale, (size_t)size * sizeof *scale);
+    zd_copy_all(size, scale, it->scale);
     it->has_scale = 1;
 }
 

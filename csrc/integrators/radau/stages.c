@@ -24,7 +24,7 @@ enum {
 
 zd_radau_stages zd_radau_stages_create(zd_arena *arena, int size)
 {
-    const size_t n = (size_t)size, rows = STAGES * (size <= LARGEST_STATE ? n : n / 2);
+    const size_t n = size, rows = STAGES * (size <= LARGEST_STATE ? n : n / 2);
     return (zd_radau_stages){
         .J = zd_arena_doubles(arena, STAGES * n * n),
         .factors = zd_arena_doubles(arena, rows * rows),
@@ -188,7 +188,7 @@ void zd_radau_stages_solve(const zd_radau_stages *self, const zd_radau_matrices 
 
 void zd_radau_stages_give_J(const zd_radau_stages *self, zd_radau_matrices *matrices)
 {
-    const size_t entries = (size_t)(matrices->size * matrices->size);
+    const size_t entries = matrices->size * matrices->size;
     memcpy(matrices->J, self->J + (STAGES - 1) * entries, entries * sizeof *matrices->J);
     matrices->has_J = 1;
     matrices->h = matrices->complex_h = 0;

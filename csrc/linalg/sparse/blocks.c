@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "../small.h"
+#include "../small.h"
 
 /* ---- memory ---- */
 
@@ -96,15 +97,15 @@ zd_blocks *zd_blocks_create(zd_arena *arena, const zd_ordering *ordering)
         .target = zd_arena_ints(arena, all.targets),
         .kernel = zd_arena_ints(arena, count),
         .size = all.numbers,
-        .S = zd_arena_doubles(arena, (size_t)all.numbers),
-        .diagonal = zd_arena_doubles(arena, (size_t)all.rows),
-        .product = zd_arena_doubles(arena, (size_t)(all.largest * all.largest)),
-        .x = zd_arena_doubles(arena, (size_t)all.rows),
+        .S = zd_arena_doubles(arena, all.numbers),
+        .diagonal = zd_arena_doubles(arena, all.rows),
+        .product = zd_arena_doubles(arena, all.largest * all.largest),
+        .x = zd_arena_doubles(arena, all.rows),
     };
     if (arena->base) {
-        memcpy(self.place, ordering->place, (size_t)count * sizeof(int));
-        memcpy(self.begin, ordering->begin, (size_t)(count + 1) * sizeof(int));
-        memcpy(self.row, ordering->row, (size_t)entries * sizeof(int));
+        memcpy(self.place, ordering->place, count * sizeof(int));
+        memcpy(self.begin, ordering->begin, (count + 1) * sizeof(int));
+        memcpy(self.row, ordering->row, entries * sizeof(int));
         fill_offsets(&self, ordering->size);
         fill_targets(&self);
     }
@@ -113,5 +114,5 @@ zd_blocks *zd_blocks_create(zd_arena *arena, const zd_ordering *ordering)
 
 void zd_blocks_clear(zd_blocks *self)
 {
-    memset(self->S, 0, (size_t)self->size * sizeof *self->S);
+    zd_clear(self->size, self->S);
 }

@@ -11,10 +11,11 @@
  * Arguments of kernels known at compile time: `n` is the size of the pivot's block; `is_same`: all blocks of its column have this size;
  * `is_complete`: all blocks of the matrix have it, so that offsets follow from indices.
  */
-#include <math.h>
 #include <stddef.h>
 
 #include "blocks.h"
+
+#include "../small.h"
 
 /* kernel(n, is_same, is_complete, ...), compiled for the common sizes */
 #define FOR_SIZE(kernel, size, is_complete, ...)             \
@@ -101,7 +102,7 @@ ZD_INLINE void scale(const int n, const int is_same, const zd_blocks *self, cons
 {
     double here[ZD_UNROLLED], *scaled = is_same ? here : self->product;
     multiply(1, n, own, P, scaled);
-    memcpy(own, scaled, (size_t)n * sizeof *own);
+    zd_copy_all(n, scaled, own);
 }
 
 ZD_INLINE void eliminate(const int n, const int is_same, const int is_complete, const zd_blocks *self, int k, unsigned char *left_out,

@@ -1,8 +1,8 @@
 #include "equations.h"
 
 #include <math.h>
-#include <string.h>
 
+#include "../small.h"
 #include "../small.h"
 
 enum { SWEEPS = 30 };
@@ -16,7 +16,7 @@ void zd_reflect_column(int rows, int columns, int stride, double *A, double *wor
     const double norm = copysign(sqrt(square + A[0] * A[0]), A[0]);
     A[0] += norm;
     const double factor = 1 / (norm * A[0]);    /* 2 / v^T v */
-    memset(work, 0, (size_t)columns * sizeof *work);
+    zd_clear(columns, work);
     for (int i = 0; i < rows; i++) zd_add_scaled(columns - 1, work + 1, A[i * stride], A + i * stride + 1);
     for (int i = 0; i < rows; i++) {
         zd_add_scaled(columns - 1, A + i * stride + 1, -factor * A[i * stride], work + 1);
@@ -84,7 +84,7 @@ static void sort_columns(int rows, int n, int stride, double *A, double *V, doub
 
 void zd_orthogonalize_columns(int rows, int n, int stride, double *A, double *V, double *norm)
 {
-    memset(V, 0, (size_t)(n * n) * sizeof *V);
+    zd_clear(n * n, V);
     for (int i = 0; i < n; i++) V[i * (n + 1)] = 1;
     for (int sweep = 0, any = 1; any && sweep < SWEEPS; sweep++) {
         any = 0;

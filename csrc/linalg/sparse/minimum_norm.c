@@ -8,13 +8,14 @@
  */
 #include "equations.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "../../workspace.h"
 #include "../../zerodrift.h"
 #include "../small.h"
 #include "blocks.h"
+
+#include "../small.h"
 
 static const double RANK = 1e-9;        /* relative to rows of length one: bound of redundant ones */
 
@@ -64,7 +65,7 @@ static int find_order(elimination *self)
 {
     const zd_sparse_equations *of = self->equations;
     size_t members = 0;
-    for (int k = 0; k < of->rows; k++) members += (size_t)of->row[k].count;
+    for (int k = 0; k < of->rows; k++) members += of->row[k].count;
     int *numbers = zd_allocate(((size_t)of->rows + 2 + members + (size_t)of->blocks) * sizeof(int));
     if (!numbers) return 0;
     int *begin = numbers, *member = begin + of->rows + 1, *size = member + members, cliques = 0;
@@ -126,7 +127,7 @@ static void count_rows(elimination *self, size_t *most)
         for (int kind = 0; kind < KINDS; kind++) {
             int rows = b->passed[kind].most + (kind == SQUARED ? b->size : 0);
             for (int child = b->child; child >= 0; child = self->block[child].sibling) rows += self->block[child].passed[kind].most;
-            const size_t entries = (size_t)rows * (size_t)(b->size + b->width);
+            const size_t entries = (size_t)rows * (b->size + b->width);
             most[kind] = entries > most[kind] ? entries : most[kind];
             const int passable = kind == MET ? b->size + b->width : b->width;
             b->passed[kind].most = b->width == 1 ? 0 : rows < passable ? rows : passable;
@@ -140,23 +141,23 @@ static void create_matrices(zd_arena *arena, elimination *self, const size_t *mo
     for (int i = 0; i < self->equations->blocks; i++) {
         block *b = self->block + i;
         for (int kind = 0; kind < KINDS; kind++)
-            b->passed[kind].x = zd_arena_doubles(arena, (size_t)b->passed[kind].most * (size_t)b->width);
-        b->of = zd_arena_doubles(arena, (size_t)b->size * (size_t)b->width);
+            b->passed[kind].x = zd_arena_doubles(arena, (size_t)b->passed[kind].most * b->width);
+        b->of = zd_arena_doubles(arena, (size_t)b->size * b->width);
         size = b->size > size ? b->size : size;
         columns = b->size + b->width > columns ? b->size + b->width : columns;
     }
     for (int kind = 0; kind < KINDS; kind++) self->gathered[kind] = zd_arena_doubles(arena, most[kind]);
-    self->V = zd_arena_doubles(arena, (size_t)size * (size_t)size);
-    self->sigma = zd_arena_doubles(arena, (size_t)size);
-    self->work = zd_arena_doubles(arena, (size_t)columns);
+    self->V = zd_arena_doubles(arena, (size_t)size * size);
+    self->sigma = zd_arena_doubles(arena, size);
+    self->work = zd_arena_doubles(arena, columns);
 }
 
 static void create_lists(zd_arena *arena, elimination *self)
 {
     const zd_sparse_equations *of = self->equations;
-    self->block = zd_arena_bytes(arena, (size_t)of->blocks * sizeof *self->block);
-    self->next_row = zd_arena_ints(arena, (size_t)of->rows);
-    self->column = zd_arena_ints(arena, (size_t)of->at[of->blocks]);
+    self->block = zd_arena_bytes(arena, of->blocks * sizeof *self->block);
+    self->next_row = zd_arena_ints(arena, of->rows);
+    self->column = zd_arena_ints(arena, of->at[of->blocks]);
 }
 
 /* Memory of the lists first, as they tell the sizes of the matrices */
@@ -223,7 +224,7 @@ static int gather(elimination *self, const block *b, enum kind kind)
     int rows = kind == SQUARED ? b->size : 0;
     for (int k = b->first_row; k >= 0; k = self->next_row[k]) rows += self->equations->is_square[k] == (kind == SQUARED);
     for (int i = b->child; i >= 0; i = self->block[i].sibling) rows += self->block[i].passed[kind].rows;
-    memset(to, 0, (size_t)rows * (size_t)columns * sizeof *to);
+    memset(to, 0, (size_t)rows * columns * sizeof *to);
     rows = 0;
     for (; kind == SQUARED && rows < b->size; rows++) to[rows * columns + rows] = 1;
     for (int k = b->first_row; k >= 0; k = self->next_row[k])
@@ -271,7 +272,7 @@ static void minimize(elimination *self, block *b, int rank)
     int rows = gather(self, b, SQUARED);
     for (int k = 0; k < rows; k++) {
         double *row = A + k * columns;
-        memset(turned, 0, (size_t)n * sizeof *turned);
+        zd_clear(n, turned);
         for (int j = 0; j < n; j++) zd_add_scaled(n, turned, row[j], self->V + j * n);
         zd_copy_all(n, turned, row);
         for (int i = 0; i < rank; i++) zd_add_scaled(b->width, row + n, -turned[i], b->of + i * b->width);

@@ -64,27 +64,25 @@ static void remove(queues *self, int degree, int k)
 
 /* ---- the search ---- */
 
-static int *arena_ints(zd_arena *arena, int count) { return zd_arena_ints(arena, (size_t)count); }
-
 static search lay_out(zd_arena *arena, const zd_pattern *pattern, const int *given)
 {
     const int count = pattern->count;
     return (search){
         .pattern = pattern,
         .given = given,
-        .degree = arena_ints(arena, count),
-        .in_at = arena_ints(arena, count + 1),
-        .in = arena_ints(arena, pattern->begin[pattern->cliques]),
-        .in_count = arena_ints(arena, count),
-        .marked = arena_ints(arena, count),
-        .gone = arena_ints(arena, pattern->cliques + count),
+        .degree = zd_arena_ints(arena, count),
+        .in_at = zd_arena_ints(arena, count + 1),
+        .in = zd_arena_ints(arena, pattern->begin[pattern->cliques]),
+        .in_count = zd_arena_ints(arena, count),
+        .marked = zd_arena_ints(arena, count),
+        .gone = zd_arena_ints(arena, pattern->cliques + count),
         .waiting = {
-            .first = arena_ints(arena, QUEUES),
-            .last = arena_ints(arena, QUEUES),
-            .before = arena_ints(arena, count),
-            .after = arena_ints(arena, count),
+            .first = zd_arena_ints(arena, QUEUES),
+            .last = zd_arena_ints(arena, QUEUES),
+            .before = zd_arena_ints(arena, count),
+            .after = zd_arena_ints(arena, count),
         },
-        .begin = arena_ints(arena, count + 1),
+        .begin = zd_arena_ints(arena, count + 1),
     };
 }
 
@@ -134,9 +132,9 @@ static int grow(search *self, int more)
 {
     if (self->used + more <= self->capacity) return 1;
     const int capacity = 2 * (self->used + more);
-    int *members = zd_allocate((size_t)capacity * sizeof(int));
+    int *members = zd_allocate(capacity * sizeof(int));
     if (!members) return 0;
-    if (self->used) memcpy(members, self->members, (size_t)self->used * sizeof(int));
+    if (self->used) memcpy(members, self->members, self->used * sizeof(int));
     zd_release(self->members);
     self->members = members;
     self->capacity = capacity;
@@ -223,15 +221,15 @@ static void sort_columns(const search *self, zd_ordering *to, int *next)
     for (int k = 0; k < count; k++) at[k + 1] += at[k], next[k] = at[k];
     for (int k = 0; k < count; k++)
         for (int i = begin[k]; i < begin[k + 1]; i++) column[next[to->place[self->members[i]]]++] = k;
-    memcpy(to->begin, begin, (size_t)(count + 1) * sizeof(int));
-    memcpy(next, begin, (size_t)count * sizeof(int));
+    memcpy(to->begin, begin, (count + 1) * sizeof(int));
+    memcpy(next, begin, count * sizeof(int));
     for (int r = 0; r < count; r++)
         for (int i = at[r]; i < at[r + 1]; i++) to->row[next[column[i]]++] = r;
 }
 
 static int keep_columns(const search *self, zd_ordering *to)
 {
-    const size_t count = (size_t)to->count, entries = (size_t)self->begin[to->count];
+    const size_t count = to->count, entries = self->begin[to->count];
     int *next = zd_allocate((2 * count + 1 + entries) * sizeof(int));
     to->row = zd_allocate(entries * sizeof(int));
     if (next && to->row) sort_columns(self, to, next);
@@ -241,7 +239,7 @@ static int keep_columns(const search *self, zd_ordering *to)
 
 int zd_ordering_find(const zd_pattern *pattern, const int *given, zd_ordering *ordering)
 {
-    const size_t count = (size_t)pattern->count;
+    const size_t count = pattern->count;
     zd_arena counting = {0};
     lay_out(&counting, pattern, given);
     *ordering = (zd_ordering){

@@ -5,10 +5,11 @@
  *
  * over the block rows i, j below the diagonal block of column k.
  */
-#include <string.h>
 
 #include "../small.h"
 #include "blocks.h"
+
+#include "../small.h"
 
 /* to (a, n) <- to + A B, B (b, n); A (a, b) or, where it is turned, the transpose of what is given */
 ZD_INLINE void add_product(const int a, const int b, const int n, int is_turned, const double *A, const double *B, double *to)
@@ -38,7 +39,7 @@ ZD_INLINE void gather(const int n, const int is_same, const zd_blocks *self, con
 {
     const int first = self->begin[k], a = is_same ? n : zd_block_size(self, self->row[e]);
     const int *target = self->target + self->target_begin[k];
-    memset(U, 0, (size_t)(a * n) * sizeof *U);
+    zd_clear(a * n, U);
     for (int f = first; f < self->begin[k + 1]; f++) {
         const int b = is_same ? n : zd_block_size(self, self->row[f]), late = (f > e ? f : e) - first, early = (f > e ? e : f) - first;
         const int at = e == f ? self->pivot_at[self->row[e]] : target[late * (late - 1) / 2 + early];
@@ -50,7 +51,7 @@ ZD_INLINE void invert_column(const int n, const int is_same, const zd_blocks *se
 {
     double *own = Z + self->pivot_at[k], *U = self->product;
     const double *P = self->S + self->pivot_at[k];
-    memset(own, 0, (size_t)(n * n) * sizeof *own);
+    zd_clear(n * n, own);
     for (int e = self->begin[k]; e < self->begin[k + 1]; e++) {
         const int a = is_same ? n : zd_block_size(self, self->row[e]);
         gather(n, is_same, self, Z, k, e, U);

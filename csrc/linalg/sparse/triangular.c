@@ -7,7 +7,6 @@
  */
 #include "blocks.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "../small.h"

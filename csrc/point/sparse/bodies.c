@@ -1,7 +1,6 @@
 #include "bodies.h"
 
-#include <string.h>
-
+#include "../../linalg/small.h"
 #include "../../linalg/sparse/blocks.h"
 
 typedef struct plan {
@@ -39,8 +38,8 @@ static void *create(zd_arena *arena, const void *of)
     zd_bodies self = {
         .layout = it->layout,
         .blocks = zd_blocks_create(arena, &it->ordering),
-        .at = zd_arena_ints(arena, (size_t)it->layout->blocks),
-        .pair = zd_arena_ints(arena, (size_t)count_pairs(it->layout)),
+        .at = zd_arena_ints(arena, it->layout->blocks),
+        .pair = zd_arena_ints(arena, count_pairs(it->layout)),
     };
     if (arena->base) fill(&self);
     return zd_arena_copy(arena, &self, sizeof self);
@@ -121,10 +120,10 @@ void zd_bodies_solve(zd_bodies *self, const double *b, double *x)
 {
     const zd_layout *layout = self->layout;
     double *y = self->blocks->x;
-    for (int i = 0; i < layout->blocks; i++) memcpy(y + self->at[i], b + layout->velocity_at[i], (size_t)size_of(layout, i) * sizeof *y);
+    for (int i = 0; i < layout->blocks; i++) zd_copy_all(size_of(layout, i), b + layout->velocity_at[i], y + self->at[i]);
     if (self->is_triangular) zd_triangular_solve(self->blocks, y);
     else zd_blocks_solve(self->blocks, y);
-    for (int i = 0; i < layout->blocks; i++) memcpy(x + layout->velocity_at[i], y + self->at[i], (size_t)size_of(layout, i) * sizeof *y);
+    for (int i = 0; i < layout->blocks; i++) zd_copy_all(size_of(layout, i), y + self->at[i], x + layout->velocity_at[i]);
 }
 
 int zd_bodies_velocity(const zd_bodies *self, int place)

@@ -44,10 +44,10 @@ zd_row_groups zd_row_groups_create(zd_arena *arena, const zd_layout *layout, con
     const int rows = layout->row_at[layout->groups];
     zd_row_groups self = {
         .count = layout->groups,
-        .group = zd_arena_bytes(arena, (size_t)layout->groups * sizeof(zd_row_group)),
+        .group = zd_arena_bytes(arena, layout->groups * sizeof(zd_row_group)),
         .column = layout->column,
         .rows = rows,
-        .place = zd_arena_ints(arena, (size_t)rows),
+        .place = zd_arena_ints(arena, rows),
         .are_pairs = 1,
     };
     for (int g = 0; arena->base && g < layout->groups; g++) {
@@ -146,16 +146,11 @@ static void subtract_any(const zd_row_group *group, const int *column, const dou
         for (int j = 0; j < group->width; j++) x[column[j]] -= C[group->C + i * group->width + j] * y[group->y + i] * (W ? W[column[j]] : 1);
 }
 
-void zd_row_groups_subtract_transposed(const zd_row_groups *self, const double *C, const double *y, double *x)
+void zd_row_groups_subtract(const zd_row_groups *self, const double *C, const double *W, const double *y, double *x)
 {
-    for (const zd_row_group *group = self->group; group < self->group + self->count; group++)
-        FOR_SIZES(subtract, subtract_any(group, self->column, C, NULL, y, x), group, C, NULL, y, x)
-}
-
-void zd_row_groups_subtract_weighted(const zd_row_groups *self, const double *C, const double *W, const double *y, double *x)
-{
-    for (const zd_row_group *group = self->group; group < self->group + self->count; group++)
-        FOR_SIZES(subtract, subtract_any(group, self->column, C, W, y, x), group, C, W, y, x)
+    const zd_row_group *group = self->group, *end = group + self->count;
+    for (; W && group < end; group++) FOR_SIZES(subtract, subtract_any(group, self->column, C, W, y, x), group, C, W, y, x)
+    for (; group < end; group++) FOR_SIZES(subtract, subtract_any(group, self->column, C, NULL, y, x), group, C, NULL, y, x)
 }
 
 /* `step` rows at once, contiguous on both sides */

@@ -23,10 +23,8 @@ typedef struct zd_row_groups {
 zd_row_groups zd_row_groups_create(zd_arena *arena, const zd_layout *layout, const int *y);
 /* y <- C x - rhs, in the order of S; x or rhs (m,) NULL: zero. */
 void zd_row_groups_times(const zd_row_groups *self, const double *C, const double *x, const double *rhs, double *y);
-/* x <- x - C^T y */
-void zd_row_groups_subtract_transposed(const zd_row_groups *self, const double *C, const double *y, double *x);
-/* x <- x - W C^T y, W diagonal */
-void zd_row_groups_subtract_weighted(const zd_row_groups *self, const double *C, const double *W, const double *y, double *x);
+/* x <- x - W C^T y, W diagonal; NULL: the identity */
+void zd_row_groups_subtract(const zd_row_groups *self, const double *C, const double *W, const double *y, double *x);
 /* y <- a - b, of a, b (m,) in the order of C; a NULL: zero */
 void zd_row_groups_gather(const zd_row_groups *self, const double *a, const double *b, double *y);
 /* rows (m,) <- y, in the order of C */

@@ -3,7 +3,6 @@
 #include "weighted.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "../../linalg/iteration.h"
 #include "../../linalg/small.h"
@@ -124,7 +123,7 @@ zd_pivots zd_weighted_factor_without(zd_weighted *self, const double *C, const d
 int zd_weighted_leave_out(zd_weighted *self, const double *C, const double *W, double least, unsigned char *left_out)
 {
     const zd_layout *layout = self->layout;
-    unsigned char *in_order = zd_allocate((size_t)self->blocks->rows);
+    unsigned char *in_order = zd_allocate(self->blocks->rows);
     int of_welds = 0;
     if (!in_order) return -1;
     fill_S(self, C, W);
@@ -138,7 +137,7 @@ int zd_weighted_leave_out(zd_weighted *self, const double *C, const double *W, d
 
 void zd_weighted_times(const zd_weighted *self, const double *C, const double *x, const double *rhs, double *y)
 {
-    if (zd_weighted_has_welds(self)) memset(y, 0, (size_t)self->blocks->rows * sizeof *y);
+    if (zd_weighted_has_welds(self)) zd_clear(self->blocks->rows, y);
     zd_row_groups_times(&self->row_groups, C, x, rhs, y);
 }
 

@@ -53,18 +53,8 @@ zd_pivots zd_weighted_factor_without(zd_weighted *self, const double *C, const d
 /* The same, marking redundant constraints in `left_out` (m,): those whose pivot, after elimination of the earlier rows, is less than `least`
  * times its diagonal entry. Returns the number of rows of welds left out instead of constraints, or -1 without memory. */
 int zd_weighted_leave_out(zd_weighted *self, const double *C, const double *W, double least, unsigned char *left_out);
-/* y <- C x - rhs, y <- S^-1 y and x <- x - C^T y: y in the order of S, where welds have no right side; rhs (m,) NULL: zero. */
+/* y <- C x - rhs in the order of S, where welds have no right side; rhs (m,) NULL: zero. */
 void zd_weighted_times(const zd_weighted *self, const double *C, const double *x, const double *rhs, double *y);
-static inline void zd_weighted_solve(const zd_weighted *self, double *y) { zd_blocks_solve(self->blocks, y); }
-static inline void zd_weighted_subtract_transposed(const zd_weighted *self, const double *C, const double *y, double *x)
-{
-    zd_row_groups_subtract_transposed(&self->row_groups, C, y, x);
-}
-/* rows (m,) <- y, in the order of C. */
-static inline void zd_weighted_scatter(const zd_weighted *self, const double *y, double *rows)
-{
-    zd_row_groups_scatter(&self->row_groups, y, rows);
-}
 /* True if the bodies of each constraint contribute similar amounts to its diagonal entry in S, W is diagonal, and no body is split.
  * least, most (m,): memory for the smallest and largest contributions. */
 int zd_weighted_is_alike(const zd_weighted *self, const double *C, const double *W, double *least, double *most);

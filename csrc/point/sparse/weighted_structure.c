@@ -172,14 +172,14 @@ static void *create(zd_arena *arena, const void *of)
     zd_weighted self = {
         .layout = it->layout,
         .blocks = zd_blocks_create(arena, &it->ordering),
-        .piece = zd_arena_bytes(arena, (size_t)(joints + 2 * welds) * sizeof(zd_piece)),
-        .pair = zd_arena_bytes(arena, (size_t)it->all.pairs * sizeof(zd_pair)),
+        .piece = zd_arena_bytes(arena, (joints + 2 * welds) * sizeof(zd_piece)),
+        .pair = zd_arena_bytes(arena, it->all.pairs * sizeof(zd_pair)),
         .at = zd_arena_ints(arena, it->all.pairs),
         .weld = zd_arena_doubles(arena, welds ? 2 * (size_t)(largest * largest) : 0),
         .members = it->all.members,
         .largest = largest,
         .row = zd_arena_ints(arena, it->layout->groups),
-        .product = zd_arena_doubles(arena, (size_t)(it->all.largest_block * largest)),
+        .product = zd_arena_doubles(arena, it->all.largest_block * largest),
     };
     if (!welds) self.largest = 0;
     if (arena->base) {

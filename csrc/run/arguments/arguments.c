@@ -60,7 +60,7 @@ static const char *wrong_rows(const zd_settings *settings)
 
 static int refuse(const char *wrong, char *message, int size)
 {
-    snprintf(message, (size_t)size, "%s", wrong ? wrong : "");
+    snprintf(message, size, "%s", wrong ? wrong : "");
     return wrong ? ZD_BAD_ARGUMENT : ZD_DONE;
 }
 
@@ -77,7 +77,7 @@ static int check_correction(const zd_system *system, int row, const zd_parameter
     const zd_correction *correction = zd_correction_of(row);
     const zd_term_entry *lacks = lacking(system, correction);
     if (!lacks) return zd_check_parameter_values(ZD_CORRECTIONS, row, given, message, size);
-    snprintf(message, (size_t)size, "%s correction needs %s (%s)", correction->card.name, lacks->name, lacks->text);
+    snprintf(message, size, "%s correction needs %s (%s)", correction->card.name, lacks->name, lacks->text);
     return ZD_BAD_ARGUMENT;
 }
 
@@ -161,7 +161,7 @@ static const char *wrong_course(const zd_settings *settings)
 int zd_check_system(const zd_system *system, char *message, int size)
 {
     const char *wrong = wrong_system(system);
-    snprintf(message, (size_t)size, "%s", wrong ? wrong : "");
+    snprintf(message, size, "%s", wrong ? wrong : "");
     return wrong ? ZD_BAD_ARGUMENT : zd_check_interface(system, message, size);
 }
 
@@ -169,7 +169,7 @@ int zd_check_system(const zd_system *system, char *message, int size)
 int zd_check_methods_agree(const zd_settings *settings, char *message, int size)
 {
     const zd_integrator *integrator = zd_integrator_of(settings->integrator);
-    const size_t room = (size_t)size;
+    const size_t room = size;
     int said = 0;
     if (!integrator || !integrator->takes_series) return ZD_DONE;
     for (int row = 0; row < zd_entry_count(ZD_CORRECTIONS) && !said; row++)
@@ -183,7 +183,7 @@ static int check_series(const zd_system *system, const zd_settings *settings, ch
 {
     const zd_integrator *integrator = zd_integrator_of(settings->integrator);
     if (!integrator->takes_series || system->series) return zd_check_methods_agree(settings, message, size);
-    snprintf(message, (size_t)size, "'%s' must have a system that provides Taylor series, as compiled ones of expressions do",
+    snprintf(message, size, "'%s' must have a system that provides Taylor series, as compiled ones of expressions do",
              integrator->card.name);
     return ZD_UNSUITED_INTEGRATOR;
 }
@@ -192,7 +192,7 @@ static int check_reactions(const zd_system *system, const zd_settings *settings,
 {
     const zd_integrator *integrator = zd_integrator_of(settings->integrator);
     if (!system->reading || zd_evaluates_accelerations(integrator)) return ZD_DONE;
-    snprintf(message, (size_t)size, "'%s' must have forces of t, positions and velocities alone, and a user function reads a reaction or an "
+    snprintf(message, size, "'%s' must have forces of t, positions and velocities alone, and a user function reads a reaction or an "
              "acceleration; explicit methods, 'trapezoidal' and 'radau' solve for it", integrator->card.name);
     return ZD_UNSUITED_INTEGRATOR;
 }
@@ -206,7 +206,7 @@ int zd_check_method(const zd_system *system, const zd_settings *settings, char *
     if (!status) status = check_series(system, settings, message, size);
     const zd_formulation *formulation = status ? NULL : zd_formulation_of(settings->formulation);
     if (!status && zd_is_too_large(system) && zd_rank_is_of_many(system) && !zd_has_many_constraints(formulation, system)) {
-        snprintf(message, (size_t)size, "'%s' has dense matrices where a kinematic matrix stands between velocities and rates: such a system "
+        snprintf(message, size, "'%s' has dense matrices where a kinematic matrix stands between velocities and rates: such a system "
                  "must have at most %d velocities, not %d; 'schur', 'augmented', 'nullspace' and 'mixed' take them at a cost that "
                  "follows the bodies", formulation->card.name, ZD_MAX_IMPLICIT, system->nv);
         return ZD_UNSUITED;
@@ -220,7 +220,7 @@ int zd_check_quaternions(const zd_system *system, const double *p, int any_lengt
     int wrong = zd_quaternions_wrong_length(system, p, any_length, &length);
     if (wrong < 0) return ZD_DONE;
     const int first = system->quaternion[wrong];
-    snprintf(message, (size_t)size, "p[%d] to p[%d] must be a quaternion of %s, not %.7g%s", first, first + 3,
+    snprintf(message, size, "p[%d] to p[%d] must be a quaternion of %s, not %.7g%s", first, first + 3,
              any_length ? "positive length" : "length 1 (to 1e-06)", length, any_length ? "" : ": divide it by its length");
     return ZD_BAD_START;
 }
@@ -230,6 +230,6 @@ int zd_check_run(const zd_system *system, const zd_settings *settings, char *mes
     int status = zd_check_method(system, settings, message, size);
     const char *wrong = status ? NULL : wrong_course(settings);
     if (!wrong && !status) wrong = wrong_outputs(system, settings->outputs);
-    if (wrong) snprintf(message, (size_t)size, "%s", wrong);
+    if (wrong) snprintf(message, size, "%s", wrong);
     return wrong ? ZD_BAD_ARGUMENT : status;
 }

@@ -18,7 +18,7 @@ static int refuse(text message, const char *sentence, ...)
 {
     va_list values;
     va_start(values, sentence);
-    vsnprintf(message.here, (size_t)message.size, sentence, values);
+    vsnprintf(message.here, message.size, sentence, values);
     va_end(values);
     return ZD_BAD_ARGUMENT;
 }
