@@ -4,10 +4,9 @@
 #define ZD_LANES 4
 #include "advance.h"
 
-const zd_lane_functions zd_lanes_avx2 = {1, 4, ZD_NAMED(choose), ZD_NAMED(renew), ZD_NAMED(advance), ZD_NAMED(move_within),
-                                           ZD_NAMED(substep), ZD_NAMED(cut), ZD_NAMED(check)};
+const zd_lane_functions zd_lanes_avx2 = ZD_LANE_FUNCTIONS;
 #else
 #include "numbers.h"
 
-const zd_lane_functions zd_lanes_avx2 = {1, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
+const zd_lane_functions zd_lanes_avx2 = {0};
 #endif

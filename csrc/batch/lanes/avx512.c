@@ -4,10 +4,9 @@
 #define ZD_LANES 8
 #include "advance.h"
 
-const zd_lane_functions zd_lanes_avx512 = {2, 8, ZD_NAMED(choose), ZD_NAMED(renew), ZD_NAMED(advance), ZD_NAMED(move_within),
-                                           ZD_NAMED(substep), ZD_NAMED(cut), ZD_NAMED(check)};
+const zd_lane_functions zd_lanes_avx512 = ZD_LANE_FUNCTIONS;
 #else
 #include "numbers.h"
 
-const zd_lane_functions zd_lanes_avx512 = {2, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
+const zd_lane_functions zd_lanes_avx512 = {0};
 #endif

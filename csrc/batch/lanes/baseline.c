@@ -4,10 +4,9 @@
 #define ZD_LANES 2
 #include "advance.h"
 
-const zd_lane_functions zd_lanes_baseline = {0, 2, ZD_NAMED(choose), ZD_NAMED(renew), ZD_NAMED(advance), ZD_NAMED(move_within),
-                                           ZD_NAMED(substep), ZD_NAMED(cut), ZD_NAMED(check)};
+const zd_lane_functions zd_lanes_baseline = ZD_LANE_FUNCTIONS;
 #else
 #include "numbers.h"
 
-const zd_lane_functions zd_lanes_baseline = {0, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
+const zd_lane_functions zd_lanes_baseline = {0};
 #endif

@@ -98,8 +98,7 @@ static inline int zd_lanes_have_dense_output(const zd_lanes *self) { return !sel
 
 /* Functions of one vector unit. */
 typedef struct zd_lane_functions {
-    enum zd_unit unit;
-    int lanes;
+    int lanes;              /* 0: the compiler does not support the unit */
     /* Chooses the order of elimination of lanes in which it is NAN, and evaluates the accelerations there. */
     void (*choose)(zd_lanes *self);
     /* Evaluates the accelerations anew, after a change of data, with the orders of elimination of the lanes. */
@@ -115,4 +114,4 @@ typedef struct zd_lane_functions {
     void (*check)(zd_lanes *self);
 } zd_lane_functions;
 
-extern const zd_lane_functions zd_lanes_baseline, zd_lanes_avx2, zd_lanes_avx512;   /* empty if the compiler does not support the unit */
+extern const zd_lane_functions zd_lanes_baseline, zd_lanes_avx2, zd_lanes_avx512;

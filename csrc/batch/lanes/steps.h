@@ -4,12 +4,12 @@
 /* ---- projection onto the constraints ---- */
 
 /* True if some Phi exceeds its tolerance; *residual: the largest relative to its row's size. */
-ZD_KERNEL zd_condition ZD_NAMED(is_open)(const zd_lanes *self, zd_real *residual)
+ZD_KERNEL zd_condition is_open(const zd_lanes *self, zd_real *residual)
 {
-    zd_condition open = ZD_SPLAT(0.0) != 0.0;
+    zd_condition open = {0};
     *residual = ZD_SPLAT(0.0);
     for (int k = 0; k < self->mh; k++) {
-        const zd_real size = ZD_NAMED(size_of)(REAL(self->Phi)[k]), share = size * REAL(self->inverse_size)[k];
+        const zd_real size = size_of(REAL(self->Phi)[k]), share = size * REAL(self->inverse_size)[k];
         open |= ~(size <= REAL(self->allowed)[k]);
         *residual = ZD_WHERE(share <= *residual, *residual, share);
     }
@@ -17,14 +17,14 @@ ZD_KERNEL zd_condition ZD_NAMED(is_open)(const zd_lanes *self, zd_real *residual
 }
 
 /* y <- its correction at t, (25) ... (27), in the `wanted` lanes. Returns the lanes in which it does not converge. */
-ZD_KERNEL zd_condition ZD_NAMED(correct_state)(zd_lanes *self, const double *t, double *y, zd_condition wanted)
+ZD_KERNEL zd_condition correct_state(zd_lanes *self, const double *t, double *y, zd_condition wanted)
 {
     double *v = y + self->nq * ZD_LANES;
-    zd_condition failed = ZD_SPLAT(0.0) != 0.0;
+    zd_condition failed = {0};
     zd_real first = ZD_SPLAT(0.0), count = first, residual;
     for (int iteration = 0;; iteration++) {
-        ZD_NAMED(correct)(self, t, y, v);
-        zd_condition open = ZD_NAMED(is_open)(self, &residual) & wanted & ~failed;
+        correct(self, t, y, v);
+        zd_condition open = is_open(self, &residual) & wanted & ~failed;
         if (iteration == 0) first = residual;
         if (iteration == 1) failed |= open & ~(residual <= ZD_TRUSTED_SHARE * first);
         if (iteration == self->max_iterations) failed |= open;
@@ -41,22 +41,22 @@ ZD_KERNEL zd_condition ZD_NAMED(correct_state)(zd_lanes *self, const double *t, 
 
 /* ---- acceptance of a step ---- */
 
-typedef struct ZD_NAMED(path) {
+typedef struct zd_lane_path {
     zd_real moved, detour, speed;       /* sums of squares, characteristic scales */
-} ZD_NAMED(path);
+} zd_lane_path;
 
 /* Rates of p at y, and at the end of the step. */
-ZD_KERNEL const double *ZD_NAMED(rates_at)(const zd_lanes *self, const double *y, const double *pdot)
+ZD_KERNEL const double *rates_at(const zd_lanes *self, const double *y, const double *pdot)
 {
     return self->has_A ? pdot : y + self->nq * ZD_LANES;
 }
 
-ZD_KERNEL ZD_NAMED(path) ZD_NAMED(find_path)(const zd_lanes *self, zd_real h)
+ZD_KERNEL zd_lane_path find_path(const zd_lanes *self, zd_real h)
 {
-    const zd_stored *rate0 = REAL(ZD_NAMED(rates_at)(self, self->y, self->pdot));
-    const zd_stored *rate1 = REAL(ZD_NAMED(rates_at)(self, self->y1, self->pdot1));
+    const zd_stored *rate0 = REAL(rates_at(self, self->y, self->pdot));
+    const zd_stored *rate1 = REAL(rates_at(self, self->y1, self->pdot1));
     const zd_real half = 0.5 * h;
-    ZD_NAMED(path) sum = {ZD_SPLAT(0.0), ZD_SPLAT(0.0), ZD_SPLAT(0.0)};
+    zd_lane_path sum = {ZD_SPLAT(0.0), ZD_SPLAT(0.0), ZD_SPLAT(0.0)};
     for (int i = 0; i < self->nq; i++) {
         const zd_real unit = REAL(self->inverse_unit_p)[i], rate = rate1[i] * unit;
         const zd_real moved = (REAL(self->y1)[i] - REAL(self->y)[i]) * unit;
@@ -69,43 +69,43 @@ ZD_KERNEL ZD_NAMED(path) ZD_NAMED(find_path)(const zd_lanes *self, zd_real h)
 }
 
 /* True if the path is within `bound` of h times some mean of the rates at its ends: see guard.c. */
-ZD_KERNEL zd_condition ZD_NAMED(is_near)(const zd_lanes *self, zd_real h, zd_real bound)
+ZD_KERNEL zd_condition is_near(const zd_lanes *self, zd_real h, zd_real bound)
 {
-    const zd_stored *rate0 = REAL(ZD_NAMED(rates_at)(self, self->y, self->pdot));
-    const zd_stored *rate1 = REAL(ZD_NAMED(rates_at)(self, self->y1, self->pdot1));
+    const zd_stored *rate0 = REAL(rates_at(self, self->y, self->pdot));
+    const zd_stored *rate1 = REAL(rates_at(self, self->y1, self->pdot1));
     zd_real rest = ZD_SPLAT(0.0), along = rest, turn = rest;
     for (int i = 0; i < self->nq; i++) {
         const zd_real unit = REAL(self->inverse_unit_p)[i];
         const zd_real a = (REAL(self->y1)[i] - REAL(self->y)[i] - h * rate0[i]) * unit, b = h * (rate1[i] - rate0[i]) * unit;
         rest += a * a, along += a * b, turn += b * b;
     }
-    zd_real share = ZD_WHERE(turn > 0.0, along / ZD_WHERE(turn > 0.0, turn, ZD_SPLAT(1.0)), ZD_SPLAT(0.0));
-    share = SMALLER(LARGER(share, ZD_SPLAT(0.0)), ZD_SPLAT(1.0));
+    zd_real share = ZD_WHERE(turn > 0.0, along / ZD_WHERE(turn > 0.0, turn, 1.0), 0.0);
+    share = SMALLER(LARGER(share, 0.0), 1.0);
     return rest - 2 * share * along + share * share * turn <= bound;
 }
 
 /* Smallest pivots of constraints and of D^T M D, relative to their scales. */
-ZD_KERNEL void ZD_NAMED(smallest)(const zd_lanes *self, const zd_elimination *order, const double *scale, const double *pivots,
+ZD_KERNEL void smallest(const zd_lanes *self, const zd_elimination *order, const double *scale, const double *pivots,
                                   zd_real *of_rows, zd_real *of_mass)
 {
     *of_rows = *of_mass = ZD_SPLAT(INFINITY);
     for (int k = 0; k < order->solves + self->nv - self->m; k++) {
         zd_real *smallest = k < order->solves ? of_rows : of_mass;
-        const zd_real pivot = REAL(pivots)[k], share = (k < order->solves ? ZD_NAMED(size_of)(pivot) : pivot) * REAL(scale)[k];
-        *smallest = ZD_WHERE(share >= *smallest, *smallest, ZD_WHERE(share == share, share, ZD_SPLAT(0.0)));
+        const zd_real pivot = REAL(pivots)[k], share = (k < order->solves ? size_of(pivot) : pivot) * REAL(scale)[k];
+        *smallest = ZD_WHERE(share >= *smallest, *smallest, ZD_WHERE(share == share, share, 0.0));
     }
 }
 
 /* True if pivots are large enough at the end of a step; *continues: the next step may begin with the first order, which the lane has. */
-ZD_KERNEL zd_condition ZD_NAMED(pivots_are_sound)(const zd_lanes *self, zd_condition *continues)
+ZD_KERNEL zd_condition pivots_are_sound(const zd_lanes *self, zd_condition *continues)
 {
-    zd_condition sound = ZD_SPLAT(0.0) != 0.0;
+    zd_condition sound = {0};
     *continues = sound;
     for (int i = 0; i < self->closed_form->orders; i++) {
         const zd_condition has = *REAL(self->order) == (double)i;
         if (!ZD_ANY(has)) continue;
         zd_real of_rows, of_mass;
-        ZD_NAMED(smallest)(self, self->closed_form->order + i, self->scale + i * self->nv * ZD_LANES, self->pivots1, &of_rows, &of_mass);
+        smallest(self, self->closed_form->order + i, self->scale + i * self->nv * ZD_LANES, self->pivots1, &of_rows, &of_mass);
         sound |= has & (of_rows >= ZD_SMALL_PIVOT) & (of_mass >= ZD_LARGE_PIVOT);
         if (i == 0) *continues = has & (of_rows >= ZD_LARGE_PIVOT) & (of_mass >= ZD_LARGE_PIVOT);
     }
@@ -117,7 +117,7 @@ ZD_KERNEL zd_condition ZD_NAMED(pivots_are_sound)(const zd_lanes *self, zd_condi
 }
 
 /* Counts successive fixed steps beyond the stability limit: omega h from vdot1 - vdot0 = -omega^2 (p1 - p0), as in guard.c. */
-ZD_KERNEL void ZD_NAMED(watch_stability)(zd_lanes *self, zd_real h, zd_real moved)
+ZD_KERNEL void watch_stability(zd_lanes *self, zd_real h, zd_real moved)
 {
     zd_real changed = ZD_SPLAT(0.0);
     for (int i = 0; i < self->nv; i++) {
@@ -125,28 +125,28 @@ ZD_KERNEL void ZD_NAMED(watch_stability)(zd_lanes *self, zd_real h, zd_real move
         changed = ZD_FMA(x, x, changed);
     }
     const zd_real square = h * h, streak = *REAL(self->streak) + 1.0;
-    *REAL(self->streak) = ZD_WHERE(square * square * changed > self->limit * moved, streak, ZD_SPLAT(0.0));
+    *REAL(self->streak) = ZD_WHERE(square * square * changed > self->limit * moved, streak, 0.0);
 }
 
 /* True if the step to y1 is accepted; else the run has to be made individually. */
-ZD_KERNEL zd_condition ZD_NAMED(is_accepted)(zd_lanes *self, zd_real h, zd_real *speed, zd_condition *continues)
+ZD_KERNEL zd_condition is_accepted(zd_lanes *self, zd_real h, zd_real *speed, zd_condition *continues)
 {
-    const ZD_NAMED(path) path = ZD_NAMED(find_path)(self, h);
+    const zd_lane_path path = find_path(self, h);
     *speed = path.speed;
     const zd_condition is_short = path.moved <= ZD_FAR_PATH * ZD_FAR_PATH;
     const zd_condition is_calm = (ZD_CALM_DETOUR * ZD_CALM_DETOUR * path.detour <= path.moved + self->nearby)
                                & (path.speed <= ZD_FASTER_SPEED * *REAL(self->fastest) + self->nearby);
-    *REAL(self->check_soon) = ZD_WHERE(is_calm, *REAL(self->check_soon), ZD_SPLAT(1.0));
-    zd_condition accepted = ZD_NAMED(pivots_are_sound)(self, continues) & is_short;
+    *REAL(self->check_soon) = ZD_WHERE(is_calm, *REAL(self->check_soon), 1.0);
+    zd_condition accepted = pivots_are_sound(self, continues) & is_short;
     if (self->mh && self->corrects) {
-        const zd_real bound = ZD_FMA(self->astray * h * h, *REAL(self->speed) + path.speed, ZD_SPLAT(self->nearby));
+        const zd_real bound = ZD_FMA(self->astray * h * h, *REAL(self->speed) + path.speed, self->nearby);
         zd_condition near = path.detour <= bound;
-        if (ZD_ANY(~near)) near |= ZD_NAMED(is_near)(self, h, bound);
+        if (ZD_ANY(~near)) near |= is_near(self, h, bound);
         accepted &= near;
         *REAL(self->is_long) = AS_NUMBER(path.moved > ZD_LONG_PATH * ZD_LONG_PATH);
     }
     if (self->is_fixed) {
-        ZD_NAMED(watch_stability)(self, h, path.moved);
+        watch_stability(self, h, path.moved);
         accepted &= *REAL(self->streak) < (double)ZD_UNSTABLE_STREAK;
     }
     return accepted & (path.moved == path.moved);
@@ -155,33 +155,30 @@ ZD_KERNEL zd_condition ZD_NAMED(is_accepted)(zd_lanes *self, zd_real h, zd_real 
 /* ---- order of elimination ---- */
 
 /* Selects order i in the lanes that have none, if its pivots are large enough. */
-ZD_KERNEL void ZD_NAMED(try_order)(zd_lanes *self, int i, double enough)
+ZD_KERNEL void try_order(zd_lanes *self, int i, double enough)
 {
     const zd_elimination *order = self->closed_form->order + i;
-    const ZD_NAMED(rates) to = {self->pdot1, self->vdot1, NULL, self->has_input ? self->power1 : NULL, self->pivots1};
+    const zd_lane_rates to = {self->pdot1, self->vdot1, NULL, self->has_input ? self->power1 : NULL, self->pivots1};
     zd_real of_rows, of_mass;
-    ZD_NAMED(call)(self, order, self->t, self->y, self->y + self->nq * ZD_LANES, &to);
-    ZD_NAMED(smallest)(self, order, self->scale + i * self->nv * ZD_LANES, self->pivots1, &of_rows, &of_mass);
+    call(self, order, self->t, self->y, self->y + self->nq * ZD_LANES, &to);
+    smallest(self, order, self->scale + i * self->nv * ZD_LANES, self->pivots1, &of_rows, &of_mass);
     const zd_real has = *REAL(self->order);
     const zd_condition takes = (has != has) & (of_rows >= enough) & (of_mass >= ZD_LARGE_PIVOT);
-    *REAL(self->order) = ZD_WHERE(takes, ZD_SPLAT((double)i), has);
-    ZD_NAMED(take_where)(takes, self->has_A ? self->nq : 0, self->pdot1, self->pdot);
-    ZD_NAMED(take_where)(takes, self->nv, self->vdot1, self->vdot);
-    ZD_NAMED(take_where)(takes, self->nv, self->pivots1, self->pivots);
-    if (self->has_input) ZD_NAMED(take_where)(takes, 1, self->power1, self->power);
+    *REAL(self->order) = ZD_WHERE(takes, (double)i, has);
+    take_rates_where(takes, self);
 }
 
 /* Selects the first order whose pivots are large, or else sufficient; if there is none the run leaves. Updates the speed. */
-ZD_KERNEL void ZD_NAMED(choose)(zd_lanes *self)
+ZD_KERNEL void choose(zd_lanes *self)
 {
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < self->closed_form->orders; i++)
-            if (ZD_ANY(*REAL(self->order) != *REAL(self->order))) ZD_NAMED(try_order)(self, i, pass ? ZD_SUFFICIENT_PIVOT : ZD_LARGE_PIVOT);
+            if (ZD_ANY(*REAL(self->order) != *REAL(self->order))) try_order(self, i, pass ? ZD_SUFFICIENT_PIVOT : ZD_LARGE_PIVOT);
     const zd_real order = *REAL(self->order);
     const zd_condition has_none = order != order;
-    *REAL(self->leaves) = ZD_WHERE(has_none & HOLDS(self->is_active), ZD_SPLAT(1.0), *REAL(self->leaves));
-    *REAL(self->order) = ZD_WHERE(has_none, ZD_SPLAT(0.0), order);
-    const zd_stored *rate = REAL(ZD_NAMED(rates_at)(self, self->y, self->pdot));
+    *REAL(self->leaves) = ZD_WHERE(has_none & HOLDS(self->is_active), 1.0, *REAL(self->leaves));
+    *REAL(self->order) = ZD_WHERE(has_none, 0.0, order);
+    const zd_stored *rate = REAL(rates_at(self, self->y, self->pdot));
     zd_real speed = ZD_SPLAT(0.0);
     for (int i = 0; i < self->nq; i++) {
         const zd_real x = rate[i] * REAL(self->inverse_unit_p)[i];
@@ -190,16 +187,16 @@ ZD_KERNEL void ZD_NAMED(choose)(zd_lanes *self)
     *REAL(self->speed) = speed;
 }
 
-ZD_KERNEL void ZD_NAMED(renew)(zd_lanes *self)
+ZD_KERNEL void renew(zd_lanes *self)
 {
-    const ZD_NAMED(rates) to = {self->pdot, self->vdot, NULL, self->has_input ? self->power : NULL, self->pivots};
-    ZD_NAMED(accelerate)(self, self->t, self->y, self->y + self->nq * ZD_LANES, &to);
+    const zd_lane_rates to = {self->pdot, self->vdot, NULL, self->has_input ? self->power : NULL, self->pivots};
+    accelerate(self, self->t, self->y, self->y + self->nq * ZD_LANES, &to);
 }
 
 /* ---- step-size control ---- */
 
 /* 1 / x^(1 / k) for x between 2^-40 and 2^40: Halley's iteration from a guess by the bits of x, which are nearly its logarithm */
-ZD_KERNEL zd_real ZD_NAMED(inverse_root)(zd_real x, int k)
+ZD_KERNEL zd_real inverse_root(zd_real x, int k)
 {
     const zd_real magic = ZD_SPLAT(0x1p52);
     typedef uint64_t words __attribute__((vector_size(8 * ZD_LANES)));
@@ -215,10 +212,10 @@ ZD_KERNEL zd_real ZD_NAMED(inverse_root)(zd_real x, int k)
 }
 
 /* Sum of squares of sum_j weight_j k_j relative to the tolerances. */
-ZD_KERNEL zd_real ZD_NAMED(squares)(const zd_lanes *self, const zd_weights *weights)
+ZD_KERNEL zd_real squares(const zd_lanes *self, const zd_weights *weights)
 {
     zd_real squares = ZD_SPLAT(0.0);
-    ZD_NAMED(combine)(self, 0, self->size, weights, ZD_SPLAT(1.0), NULL, self->other);
+    combine(self, weights, ZD_SPLAT(1.0), NULL, self->other);
     for (int i = 0; i < self->size; i++) {
         const zd_real x = REAL(self->other)[i] / REAL(self->tolerated)[i];
         squares = ZD_FMA(x, x, squares);
@@ -227,7 +224,7 @@ ZD_KERNEL zd_real ZD_NAMED(squares)(const zd_lanes *self, const zd_weights *weig
 }
 
 /* Counts steps at the stability limit, as in adaptive.c, in these lanes: by |lambda h|, see runge_kutta.c. */
-ZD_KERNEL void ZD_NAMED(watch_stiffness)(zd_lanes *self, zd_condition checks, zd_real h)
+ZD_KERNEL void watch_stiffness(zd_lanes *self, zd_condition checks, zd_real h)
 {
     const int size = self->size, stages = self->method.stages;
     const zd_stored *of_stage = REAL(self->k) + (stages - 1) * size, *of_y = of_stage + size;
@@ -241,49 +238,49 @@ ZD_KERNEL void ZD_NAMED(watch_stiffness)(zd_lanes *self, zd_condition checks, zd
     }
     const zd_condition known = checks & (states > rounding) & (rates > 0.0);
     const zd_condition is_long = known & (h * h * rates > ZD_STABILITY_LIMIT * ZD_STABILITY_LIMIT * self->decay * self->decay * states);
-    const zd_real below = ZD_WHERE(is_long, ZD_SPLAT(0.0), *REAL(self->below_limit) + AS_NUMBER(known));
+    const zd_real below = ZD_WHERE(is_long, 0.0, *REAL(self->below_limit) + AS_NUMBER(known));
     const zd_condition is_calm = known & ~is_long & (below >= (double)ZD_NOT_STIFF_AFTER);
-    const zd_real at = ZD_WHERE(is_calm, ZD_SPLAT(0.0), *REAL(self->at_limit) + AS_NUMBER(is_long));
+    const zd_real at = ZD_WHERE(is_calm, 0.0, *REAL(self->at_limit) + AS_NUMBER(is_long));
     *REAL(self->below_limit) = below;
     *REAL(self->at_limit) = at;
-    const zd_real more = ZD_WHERE(at == (double)ZD_STIFF_AFTER, at, ZD_WHERE(at > (double)ZD_STIFF_AFTER, ZD_SPLAT(1.0), ZD_SPLAT(0.0)));
-    *REAL(self->stiff) += ZD_WHERE(is_long, more, ZD_SPLAT(0.0));
+    const zd_real more = ZD_WHERE(at == (double)ZD_STIFF_AFTER, at, ZD_WHERE(at > (double)ZD_STIFF_AFTER, 1.0, 0.0));
+    *REAL(self->stiff) += ZD_WHERE(is_long, more, 0.0);
 }
 
 /* Lanes in which stiffness is checked: if that takes an evaluation, every ZD_CHECK_STIFFNESS_EVERY steps. */
-ZD_KERNEL zd_condition ZD_NAMED(checks_stiffness)(const zd_lanes *self)
+ZD_KERNEL zd_condition checks_stiffness(const zd_lanes *self)
 {
     const zd_method *method = &self->method;
-    const zd_condition none = ZD_SPLAT(0.0) != 0.0;
+    const zd_condition none = {0};
     if (method->tableau->c[method->stages - 1] != 1) return none;
     if (method->tableau->e[method->stages] != 0) return ~none;
-    return ZD_NAMED(is_multiple)(*REAL(self->number) + *REAL(self->rejected) + 1.0, ZD_CHECK_STIFFNESS_EVERY);
+    return is_multiple(*REAL(self->number) + *REAL(self->rejected) + 1.0, ZD_CHECK_STIFFNESS_EVERY);
 }
 
 /* Error of the step to y1, root mean square relative to the tolerances: see runge_kutta.h. */
-ZD_KERNEL zd_real ZD_NAMED(error)(zd_lanes *self, const double *t1, zd_real h)
+ZD_KERNEL zd_real error(zd_lanes *self, const double *t1, zd_real h)
 {
     const zd_method *method = &self->method;
-    const zd_condition checks = ZD_NAMED(checks_stiffness)(self) & HOLDS(self->is_active);
+    const zd_condition checks = checks_stiffness(self) & HOLDS(self->is_active);
     const int is_checking = ZD_ANY(checks);
     if (method->tableau->e[method->stages] != 0 || is_checking)
-        ZD_NAMED(rate)(self, t1, self->y1, self->k + method->stages * self->size * ZD_LANES);
+        rate(self, t1, self->y1, self->k + method->stages * self->size * ZD_LANES);
     for (int i = 0; i < self->size; i++) {
-        const zd_real a = ZD_NAMED(size_of)(REAL(self->y)[i]), b = ZD_NAMED(size_of)(REAL(self->y1)[i]);
-        REAL(self->tolerated)[i] = ZD_FMA(LARGER(a, b), ZD_SPLAT(self->rtol), ZD_SPLAT(self->atol));
+        const zd_real a = size_of(REAL(self->y)[i]), b = size_of(REAL(self->y1)[i]);
+        REAL(self->tolerated)[i] = ZD_FMA(LARGER(a, b), self->rtol, self->atol);
     }
-    const zd_real sum = ZD_NAMED(squares)(self, &method->e);
-    const zd_real blend = method->tableau->e3 ? sum + 0.01 * ZD_NAMED(squares)(self, &method->e3) : sum;
+    const zd_real sum = squares(self, &method->e);
+    const zd_real blend = method->tableau->e3 ? sum + 0.01 * squares(self, &method->e3) : sum;
     const zd_condition is_zero = sum == 0.0;
-    const zd_real norm = ZD_WHERE(is_zero, ZD_SPLAT(0.0),
-                                  ZD_NAMED(size_of)(h) * sum / ZD_SQRT(ZD_WHERE(is_zero, ZD_SPLAT(1.0), blend) * (double)self->size));
-    if (is_checking) ZD_NAMED(watch_stiffness)(self, checks & (norm <= 1.0), h);
+    const zd_real norm = ZD_WHERE(is_zero, 0.0,
+                                  size_of(h) * sum / ZD_SQRT(ZD_WHERE(is_zero, 1.0, blend) * (double)self->size));
+    if (is_checking) watch_stiffness(self, checks & (norm <= 1.0), h);
     return norm;
 }
 
-ZD_KERNEL zd_real ZD_NAMED(factor)(const zd_lanes *self, zd_real norm)
+ZD_KERNEL zd_real size_factor(const zd_lanes *self, zd_real norm)
 {
-    const zd_real bounded = SMALLER(LARGER(norm, ZD_SPLAT(0x1p-40)), ZD_SPLAT(0x1p40));
-    const zd_real wanted = ZD_SAFETY * ZD_NAMED(inverse_root)(bounded, self->method.error_order + 1);
-    return SMALLER(LARGER(wanted, ZD_SPLAT(ZD_MIN_FACTOR)), ZD_SPLAT(ZD_MAX_FACTOR));
+    const zd_real bounded = SMALLER(LARGER(norm, 0x1p-40), 0x1p40);
+    const zd_real wanted = ZD_SAFETY * inverse_root(bounded, self->method.error_order + 1);
+    return SMALLER(LARGER(wanted, ZD_MIN_FACTOR), ZD_MAX_FACTOR);
 }
