@@ -1,7 +1,6 @@
 /* From a block to a mechanism: its tables are those that Python would give to the core. */
 #include "made.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "../methods.h"
@@ -105,13 +104,13 @@ static zd_block *create(zd_arena *arena, size_t size, const zd_block_layout *lay
     zd_block nowhere = {.size = 0}, *here = zd_arena_bytes(arena, sizeof *here), *self = here ? here : &nowhere;
     self->word = zd_arena_bytes(arena, size);
     zd_block_laws_create(&self->laws, layout, arena);
-    const size_t inputs = (size_t)zd_block_count(layout, ZD_BLOCK_INPUTS);
+    const size_t inputs = zd_block_count(layout, ZD_BLOCK_INPUTS);
     zd_block_inputs_memory *memory = &self->inputs_memory;
     memory->value = zd_arena_doubles(arena, inputs);
     memory->lower = zd_arena_doubles(arena, inputs);
     memory->upper = zd_arena_doubles(arena, inputs);
     memory->place = zd_arena_bytes(arena, inputs * sizeof *memory->place);
-    self->output = zd_arena_bytes(arena, (size_t)zd_block_count(layout, ZD_BLOCK_OUTPUTS) * sizeof *self->output);
+    self->output = zd_arena_bytes(arena, zd_block_count(layout, ZD_BLOCK_OUTPUTS) * sizeof *self->output);
     return here;
 }
 

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../linalg/small.h"
 #include "../mechanisms/common/assembly/given.h"
 #include "../workspace.h"
 #include "made.h"
@@ -26,11 +27,11 @@ typedef struct gaps {
 static gaps create(zd_arena *arena, const zd_block *block)
 {
     const zd_system *system = zd_block_system(block);
-    const size_t joints = (size_t)zd_block_count(&block->layout, ZD_BLOCK_JOINTS), bodies = (size_t)zd_block_bodies(block);
-    const size_t mh = (size_t)system->mh, nv = (size_t)system->nv;
+    const size_t joints = zd_block_count(&block->layout, ZD_BLOCK_JOINTS), bodies = zd_block_bodies(block);
+    const size_t mh = system->mh, nv = system->nv;
     return (gaps){.block = block, .Phi = zd_arena_doubles(arena, mh),
-                  .v = zd_arena_doubles(arena, nv), .scratch = zd_arena_doubles(arena, (size_t)system->scratch),
-                  .open = zd_arena_doubles(arena, joints), .p = zd_arena_doubles(arena, (size_t)system->nq),
+                  .v = zd_arena_doubles(arena, nv), .scratch = zd_arena_doubles(arena, system->scratch),
+                  .open = zd_arena_doubles(arena, joints), .p = zd_arena_doubles(arena, system->nq),
                   .role = zd_arena_ints(arena, mh),
                   .of_loop = zd_arena_ints(arena, (joints + bodies + 1))};
 }
@@ -42,7 +43,7 @@ static int read_gaps(const gaps *self, const double *p)
     const zd_system *system = zd_block_system(block);
     const zd_terms terms = {.Phi = self->Phi, .scratch = self->scratch};
     const int status = system->evaluate(system->data, ZD_PHI | ZD_MOVED, 0, p, self->v, &terms);
-    memset(self->open, 0, (size_t)zd_block_count(&block->layout, ZD_BLOCK_JOINTS) * sizeof *self->open);
+    zd_clear(zd_block_count(&block->layout, ZD_BLOCK_JOINTS), self->open);
     for (int row = 0; !status && row < system->mh; row++) {
         const zd_constraint_owner *owner = block->names.owner + row;
         if (owner->owner != ZD_OF_JOINT) continue;
@@ -96,7 +97,7 @@ static int close_joint(const gaps *self, const double *p, int joint)
         self->role[row] = is_closed ? ZD_ROLE_JOINT : ZD_ROLE_IGNORED;
     }
     const zd_assembly_problem given = {.system = system, .length = zd_block_length(self->block), .role = self->role};
-    memcpy(self->p, p, (size_t)system->nq * sizeof *p);
+    zd_copy_all(system->nq, p, self->p);
     const int status = zd_assembly_minimize(&given, self->p);
     return status ? status : read_gaps(self, self->p);
 }
@@ -134,8 +135,7 @@ static int find(const zd_block *block, const double *p, int is_smallest, double 
     if (!zd_block_count(&block->layout, ZD_BLOCK_NAMES) || !zd_block_count(&block->layout, ZD_BLOCK_JOINTS)) return ZD_BAD_ARGUMENT;
     zd_arena arena = {0};
     create(&arena, block);
-    arena = (zd_arena){.base = zd_allocate(arena.used)};
-    if (!arena.base) return ZD_NO_MEMORY;
+    if (!zd_arena_allocate(&arena)) return ZD_NO_MEMORY;
     gaps self = create(&arena, block);
     self.names_loops = block->layout.of->freedoms && !is_smallest;
     const int status = explain(&self, p, is_smallest, least, to);
@@ -154,7 +154,7 @@ int zd_block_explain_gaps(const zd_block *block, const double *p, int is_smalles
 static zd_block *with_inboard(const zd_block *block, const int *inboard)
 {
     const zd_block_part *body = block->layout.part + ZD_BLOCK_BODIES, *start = block->layout.part + ZD_BLOCK_START;
-    const size_t first = (size_t)(start->word - block->word), end = first + (size_t)start->count, all = block->size / sizeof(double);
+    const size_t first = start->word - block->word, end = first + (size_t)start->count, all = block->size / sizeof(double);
     const size_t words = all - (size_t)start->count;
     double *copy = zd_allocate(block->size);
     if (!copy) return NULL;
@@ -198,7 +198,7 @@ void zd_block_explain_start(const zd_block *block, char *message, int message_si
     const zd_system *system = zd_block_system(other);
     const int poses = zd_block_bodies(block) * zd_block_poses(block, NULL, NULL, NULL);
     const int is_few = system->nv <= MAX_DENSE && system->mh <= MAX_DENSE;
-    double *p = is_few ? zd_allocate((size_t)(system->nq + poses + zd_block_system(block)->scratch) * sizeof *p) : NULL;
+    double *p = is_few ? zd_allocate((system->nq + poses + zd_block_system(block)->scratch) * sizeof *p) : NULL;
     if (p) {
         copy_start(block, other, p, p + system->nq, p + system->nq + poses);
         find(other, p, 0, CLOSED * zd_block_length(block), (zd_complaint){message, message_size});

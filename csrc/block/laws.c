@@ -104,13 +104,13 @@ static int add_spline(zd_block_laws *self, const zd_block_layout *layout, int sp
 
 void zd_block_laws_create(zd_block_laws *self, const zd_block_layout *layout, zd_arena *arena)
 {
-    const size_t laws = (size_t)zd_block_count(layout, ZD_BLOCK_LAWS);
+    const size_t laws = zd_block_count(layout, ZD_BLOCK_LAWS);
     self->law = zd_arena_bytes(arena, laws * sizeof *self->law);
     self->program = zd_arena_bytes(arena, laws * sizeof *self->program);
-    self->instruction = zd_arena_bytes(arena, (size_t)zd_block_count(layout, ZD_BLOCK_INSTRUCTIONS) * sizeof *self->instruction);
-    self->result = zd_arena_bytes(arena, (size_t)zd_block_count(layout, ZD_BLOCK_RESULTS) * sizeof *self->result);
-    self->number = zd_arena_doubles(arena, (size_t)zd_block_count(layout, ZD_BLOCK_NUMBERS));
-    self->spline = zd_arena_bytes(arena, (size_t)zd_block_count(layout, ZD_BLOCK_SPLINES) * sizeof *self->spline);
+    self->instruction = zd_arena_bytes(arena, zd_block_count(layout, ZD_BLOCK_INSTRUCTIONS) * sizeof *self->instruction);
+    self->result = zd_arena_bytes(arena, zd_block_count(layout, ZD_BLOCK_RESULTS) * sizeof *self->result);
+    self->number = zd_arena_doubles(arena, zd_block_count(layout, ZD_BLOCK_NUMBERS));
+    self->spline = zd_arena_bytes(arena, zd_block_count(layout, ZD_BLOCK_SPLINES) * sizeof *self->spline);
 }
 
 int zd_block_laws_unpack(zd_block_laws *self, const zd_block_layout *layout, zd_complaint to)

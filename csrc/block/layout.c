@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "../linalg/small.h"
+
 static const double LARGEST = 0x1p24;       /* whole number: sums of two are far from the range of int */
 
 static const char *const name_of_section[ZD_BLOCK_SECTIONS] = {
@@ -62,10 +64,10 @@ static int place_sections(const double *word, size_t words, zd_block_layout *to,
     for (int section = 0; section < ZD_BLOCK_SECTIONS; section++) {
         const double count = word[4 + section];
         const int width = width_of(to, section);
-        if (!zd_block_is_integer(count, 0, LARGEST) || (size_t)count * (size_t)width > words - at)
+        if (!zd_block_is_integer(count, 0, LARGEST) || (size_t)count * width > words - at)
             return zd_complain(complaint, "the number of %s of the block must fit in it, and is %g", name_of_section[section], count);
         to->part[section] = (zd_block_part){(int)count, width, word + at};
-        at += (size_t)count * (size_t)width;
+        at += (size_t)count * width;
     }
     return at == words || zd_complain(complaint, "the sections of the block must fill it: %g of %g words", (double)at, (double)words);
 }
@@ -105,7 +107,7 @@ const char *zd_block_text(const zd_block_layout *layout, double offset)
 static int unpack_field(const zd_block_layout *layout, const zd_block_field *field, const double *word, unsigned char *entry)
 {
     void *to = entry + field->offset;
-    if (field->member == ZD_MEMBER_DOUBLES) memcpy(to, word, (size_t)field->count * sizeof *word);
+    if (field->member == ZD_MEMBER_DOUBLES) zd_copy_all(field->count, word, to);
     if (field->member == ZD_MEMBER_TEXT) {
         const char *text = zd_block_text(layout, *word);
         memcpy(to, &text, sizeof text);

@@ -101,7 +101,7 @@ void zd_block_name_loop(const zd_block_layout *layout, int joint, int *is_on_way
 {
     const int bodies = zd_block_count(layout, ZD_BLOCK_BODIES), joints = zd_block_count(layout, ZD_BLOCK_JOINTS);
     int *of_loop = is_on_way + bodies + 1, meet = end_of(layout, joint, 1), is_first = 1;
-    memset(is_on_way, 0, (size_t)(bodies + 1 + joints) * sizeof *is_on_way);
+    memset(is_on_way, 0, (bodies + 1 + joints) * sizeof *is_on_way);
     for (int body = end_of(layout, joint, 0); body; body = parent_of(layout, body)) is_on_way[body] = 1;
     while (meet && !is_on_way[meet]) meet = parent_of(layout, meet);
     of_loop[joint] = 1;

@@ -24,6 +24,6 @@ void zd_block_name_row(const void *names, int row, char *to, int size)
     to[0] = 0;
     if (!zd_block_count(layout, ZD_BLOCK_NAMES)) return;
     const char *name = zd_block_text(layout, *zd_block_entry(layout, ZD_BLOCK_NAMES, before + owner->index));
-    if (!is_of_joint) snprintf(to, (size_t)size, "%s", name);
-    else layout->of->name_of_constraint(layout, owner->index, owner->component, name, to, (size_t)size);
+    if (!is_of_joint) snprintf(to, size, "%s", name);
+    else layout->of->name_of_constraint(layout, owner->index, owner->component, name, to, size);
 }

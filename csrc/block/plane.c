@@ -2,15 +2,14 @@
 #include "made.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include "../mechanisms/plane/tables.h"
 
-#define BODY(member, count) ZD_DOUBLES_FIELD(zd_plane_body, member, count)
-#define BODY_INT(member) ZD_INT_FIELD(zd_plane_body, member)
-#define JOINT(member, count) ZD_DOUBLES_FIELD(zd_plane_joint, member, count)
-#define JOINT_INT(member) ZD_INT_FIELD(zd_plane_joint, member)
-#define QUANTITY(member, count) ZD_DOUBLES_FIELD(zd_plane_quantity, member, count)
-#define QUANTITY_INT(member) ZD_INT_FIELD(zd_plane_quantity, member)
+#define MECHANISM zd_plane
+#define OF(name) zd_plane_##name
+
+#include "of_dimension.h"
 
 static const zd_block_structure structure[] = {
     [ZD_BLOCK_BODIES] = ZD_STRUCTURE(zd_plane_body,
@@ -25,24 +24,9 @@ static const zd_block_structure structure[] = {
 
 static int make(zd_block *self, void *const *section, const zd_elements *elements, zd_complaint to)
 {
-    const zd_block_layout *layout = &self->layout;
-    const double *gravity = layout->part[ZD_BLOCK_GRAVITY].word;
-    const zd_plane_tables tables = {
-        .gravity = {gravity[0], gravity[1]}, .bodies = zd_block_count(layout, ZD_BLOCK_BODIES),
-        .joints = zd_block_count(layout, ZD_BLOCK_JOINTS), .quantities = zd_block_count(layout, ZD_BLOCK_QUANTITIES),
-        .body = section[ZD_BLOCK_BODIES], .joint = section[ZD_BLOCK_JOINTS],
-        .quantity = section[ZD_BLOCK_QUANTITIES], .elements = *elements};
-    zd_plane *plane = zd_plane_create(&tables, to.message, to.size);
-    self->mechanism = plane;
-    if (!plane) return 0;
-    const zd_plane_plan plan = zd_plane_planned(plane);
-    self->force = (zd_generalized_force *)(uintptr_t)plan.force;
-    self->names.owner = zd_plane_rows(plane);
-    self->system = *zd_plane_system(plane);
-    return 1;
+    const zd_plane_tables tables = tables_of(&self->layout, section, elements);
+    return set_mechanism(self, zd_plane_create(&tables, to.message, to.size));
 }
-
-static void release(void *mechanism) { zd_plane_free(mechanism); }
 
 static void poses(const void *mechanism, const double *p, double *poses, double *scratch)
 {

@@ -2,15 +2,14 @@
 #include "made.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include "../mechanisms/space_tree/tree.h"
 
-#define BODY(member, count) ZD_DOUBLES_FIELD(zd_space_body, member, count)
-#define BODY_INT(member) ZD_INT_FIELD(zd_space_body, member)
-#define JOINT(member, count) ZD_DOUBLES_FIELD(zd_space_joint, member, count)
-#define JOINT_INT(member) ZD_INT_FIELD(zd_space_joint, member)
-#define QUANTITY(member, count) ZD_DOUBLES_FIELD(zd_space_quantity, member, count)
-#define QUANTITY_INT(member) ZD_INT_FIELD(zd_space_quantity, member)
+#define MECHANISM zd_space
+#define OF(name) zd_space_##name
+
+#include "of_dimension.h"
 
 static const zd_block_structure structure[] = {
     [ZD_BLOCK_BODIES] = ZD_STRUCTURE(zd_space_body,
@@ -25,26 +24,11 @@ static const zd_block_structure structure[] = {
 
 static int make(zd_block *self, void *const *section, const zd_elements *elements, zd_complaint to)
 {
-    const zd_block_layout *layout = &self->layout;
-    const double *gravity = layout->part[ZD_BLOCK_GRAVITY].word;
-    const zd_space_tables tables = {
-        .gravity = {gravity[0], gravity[1], gravity[2]}, .bodies = zd_block_count(layout, ZD_BLOCK_BODIES),
-        .joints = zd_block_count(layout, ZD_BLOCK_JOINTS), .quantities = zd_block_count(layout, ZD_BLOCK_QUANTITIES),
-        .body = section[ZD_BLOCK_BODIES], .joint = section[ZD_BLOCK_JOINTS], .quantity = section[ZD_BLOCK_QUANTITIES],
-        .elements = *elements};
+    const zd_space_tables tables = tables_of(&self->layout, section, elements);
     int has_tree = 0;
     for (int i = 0; i < tables.bodies; i++) has_tree |= tables.body[i].inboard >= 0;
-    zd_space *space = (has_tree ? zd_space_tree_create : zd_space_create)(&tables, to.message, to.size);
-    self->mechanism = space;
-    if (!space) return 0;
-    const zd_space_plan plan = zd_space_planned(space);
-    self->force = (zd_generalized_force *)(uintptr_t)plan.force;
-    self->names.owner = zd_space_rows(space);
-    self->system = *zd_space_system(space);
-    return 1;
+    return set_mechanism(self, (has_tree ? zd_space_tree_create : zd_space_create)(&tables, to.message, to.size));
 }
-
-static void release(void *mechanism) { zd_space_free(mechanism); }
 
 static void poses(const void *mechanism, const double *p, double *poses, double *scratch)
 {

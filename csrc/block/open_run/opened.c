@@ -16,12 +16,12 @@ static zd_opened *create(zd_arena *arena, const zd_block *block)
 {
     const zd_system *system = zd_block_system(block);
     zd_opened nowhere, *here = zd_arena_bytes(arena, sizeof *here), *self = here ? here : &nowhere;
-    self->p = zd_arena_doubles(arena, (size_t)system->nq);
-    self->v = zd_arena_doubles(arena, (size_t)system->nv);
-    self->Phi = zd_arena_doubles(arena, (size_t)system->mh);
+    self->p = zd_arena_doubles(arena, system->nq);
+    self->v = zd_arena_doubles(arena, system->nv);
+    self->Phi = zd_arena_doubles(arena, system->mh);
     const int of_measures = system->measures->scratch + system->nv + system->mh + system->mn;
-    self->scratch = zd_arena_doubles(arena, (size_t)(of_measures > system->scratch ? of_measures : system->scratch));
-    const size_t inputs = (size_t)zd_block_inputs(block);
+    self->scratch = zd_arena_doubles(arena, of_measures > system->scratch ? of_measures : system->scratch);
+    const size_t inputs = zd_block_inputs(block);
     self->initial = zd_arena_doubles(arena, inputs);
     self->present = zd_arena_doubles(arena, inputs);
     self->places = zd_arena_doubles(arena, ZD_OPENED_PLACE * inputs);
@@ -43,7 +43,7 @@ static zd_opened *open_run(zd_block *block, double t, zd_opened_first *begin, ch
     const double *start = zd_block_start(block);
     zd_opened *self = start ? allocate(block) : NULL;
     if (!self) {
-        snprintf(message, (size_t)size, start ? "memory for the run was not allocated" : "the block must have a start");
+        snprintf(message, size, start ? "memory for the run was not allocated" : "the block must have a start");
         return NULL;
     }
     self->block = block;
@@ -52,7 +52,7 @@ static zd_opened *open_run(zd_block *block, double t, zd_opened_first *begin, ch
     if (!status) status = begin(self, t, start, start + zd_block_system(block)->nq);
     if (!status) return self;
     zd_block_explain_start(block, self->message, MESSAGE);
-    snprintf(message, (size_t)size, "%s", self->message);
+    snprintf(message, size, "%s", self->message);
     zd_release(self);
     return NULL;
 }
@@ -112,8 +112,8 @@ int zd_opened_restart(zd_opened *self, double t, const double *p, const double *
 int zd_opened_assemble(zd_opened *self, double t, const double *p, const double *v)
 {
     const zd_system *system = zd_block_system(self->block);
-    memmove(self->p, p, (size_t)system->nq * sizeof *p);
-    memcpy(self->v, v, (size_t)system->nv * sizeof *v);
+    memmove(self->p, p, system->nq * sizeof *p);
+    memcpy(self->v, v, system->nv * sizeof *v);
     const int status = zd_project(system, &self->settings, t, self->p, self->v, NULL, NULL, NULL, self->message, MESSAGE);
     return status ? status : zd_opened_restart(self, t, self->p, self->v);
 }

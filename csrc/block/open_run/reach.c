@@ -18,7 +18,7 @@ enum { FIRST_TERM, TERMS, NONHOLONOMIC, LAW, CONSTANT, SLOPE, KIND = 2, QUANTITY
 static int measure_of_drive(const zd_block_layout *layout, int relation)
 {
     const double *row = zd_block_entry(layout, ZD_BLOCK_RELATIONS, relation);
-    const size_t size = (size_t)layout->part[ZD_BLOCK_QUANTITIES].width * sizeof *row;
+    const size_t size = layout->part[ZD_BLOCK_QUANTITIES].width * sizeof *row;
     const double *quantity = zd_block_entry(layout, ZD_BLOCK_QUANTITIES, (int)*zd_block_entry(layout, ZD_BLOCK_TERMS, (int)row[FIRST_TERM]));
     int i = row[TERMS] == 1 ? zd_block_count(layout, ZD_BLOCK_MEASURES) : 0;
     while (i--) {
@@ -58,7 +58,7 @@ void zd_opened_explain_reach(struct zd_opened *self)
     const double t = zd_run_time(self->run), step = self->settings.step;
     zd_block *block = with_positions(self, t);
     const int mh = block ? block->system.mh : 0;
-    int *measure = zd_allocate((size_t)mh * sizeof *measure);
+    int *measure = zd_allocate(mh * sizeof *measure);
     if (block && measure) {
         const zd_block_layout *layout = &block->layout;
         for (int i = 0; i < mh; i++) {
@@ -90,14 +90,14 @@ static void name_missed(struct zd_opened *self, const double *residual, const do
 int zd_opened_find_positions(struct zd_opened *self, double t, const double *p)
 {
     const zd_block *block = self->block;
-    const size_t m = (size_t)(block->system.mh + block->system.mn);
+    const size_t m = block->system.mh + block->system.mn;
     double *residual = zd_allocate(3 * m * sizeof *residual), *size = residual + m;
     if (!residual) return ZD_NO_MEMORY;
     int *role = (int *)(size + m);
     for (int k = 0; k < block->system.mh; k++) role[k] = block->names.owner[k].owner == ZD_OF_RELATION ? ZD_ROLE_DRIVE : ZD_ROLE_JOINT;
     const zd_assembly_problem given = {.system = &block->system, .t = t, .length = zd_block_length(block), .role = role, .residual = residual,
                                      .size = size};
-    memcpy(self->p, p, (size_t)block->system.nq * sizeof *p);
+    memcpy(self->p, p, block->system.nq * sizeof *p);
     const int outcome = zd_assemble_positions(&given, self->p);
     if (outcome == ZD_TARGETS_UNMET) name_missed(self, residual, size);
     zd_release(residual);

@@ -9,7 +9,7 @@ int zd_complain(zd_complaint to, const char *format, ...)
 {
     va_list list;
     va_start(list, format);
-    vsnprintf(to.message, (size_t)to.size, format, list);
+    vsnprintf(to.message, to.size, format, list);
     va_end(list);
     return 0;
 }
@@ -18,7 +18,7 @@ void zd_append(zd_complaint *to, const char *format, ...)
 {
     va_list list;
     va_start(list, format);
-    const int size = vsnprintf(to->message, (size_t)to->size, format, list), used = size < to->size ? size : to->size - 1;
+    const int size = vsnprintf(to->message, to->size, format, list), used = size < to->size ? size : to->size - 1;
     va_end(list);
     to->message += used;
     to->size -= used;

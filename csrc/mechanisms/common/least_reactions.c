@@ -33,10 +33,10 @@ static void create(least_reactions *to, zd_arena *arena, const zd_measuring *sel
     const int m = self->elements->m, rows = rows_of_wrenches(self);
     to->C = zd_row_space_create(arena, m, self->nv);
     to->SN = zd_row_space_create(arena, rows, m);
-    to->N = zd_arena_doubles(arena, (size_t)m * (size_t)m);
-    to->wrenches = zd_arena_doubles(arena, (size_t)rows);
-    to->z = zd_arena_doubles(arena, (size_t)m);
-    to->norm = zd_arena_doubles(arena, (size_t)m);
+    to->N = zd_arena_doubles(arena, (size_t)m * m);
+    to->wrenches = zd_arena_doubles(arena, rows);
+    to->z = zd_arena_doubles(arena, m);
+    to->norm = zd_arena_doubles(arena, m);
 }
 
 /* Magnitude of the entries that a marker quantity can have in a constraint */
@@ -81,7 +81,7 @@ static void write_null_vectors(least_reactions *of, int m)
     const zd_row_space *C = &of->C;
     for (int d = C->rank; d < m; d++) {
         double *vector = of->N + (d - C->rank) * m;
-        memset(vector, 0, (size_t)m * sizeof *vector);
+        zd_clear(m, vector);
         for (int k = C->rank - 1; k >= 0; k--) {
             double sum = C->A[d * C->n + k];
             for (int i = k + 1; i < C->rank; i++) sum -= C->A[i * C->n + k] * of->z[i];
@@ -150,7 +150,7 @@ static int write_columns(const zd_measuring *self, const zd_measured_state *at, 
         const double square = zd_dot(rows, of->wrenches, of->wrenches);
         const int is_zero = square <= ZERO_COLUMN * ZERO_COLUMN;
         if (status) return status;
-        if (is_zero) memset(of->N + j * m, 0, (size_t)m * sizeof *of->N);
+        if (is_zero) zd_clear(m, of->N + j * m);
         else sum += square;
         for (int i = 0; i < rows; i++) of->SN.A[i * count + j] = is_zero ? 0 : of->wrenches[i];
     }
@@ -186,7 +186,7 @@ int zd_least_reactions(const zd_measuring *self, const zd_measured_state *at, do
     void *memory = allocate(&of, self);
     if (!memory) return ZD_NO_MEMORY;
     int status = find_redundant(self, at, &of);
-    memcpy(to, at->lambda, (size_t)m * sizeof *to);
+    zd_copy_all(m, at->lambda, to);
     if (!status && of.count) {
         status = write_wrenches(self, &(zd_measured_state){at->t, at->p, at->v, at->vdot, at->lambda, 1, at->efforts}, of.wrenches);
         zd_row_space_factor(&of.SN, rows_of_wrenches(self), SINGULAR, 0);
@@ -204,7 +204,7 @@ int zd_redundant_multipliers(const zd_measuring *self, const zd_measured_state *
     if (!memory) return ZD_NO_MEMORY;
     const int status = find_redundant(self, at, &of);
     *count = of.count, *total = of.total;
-    if (!status) memcpy(N, of.N, (size_t)of.count * (size_t)self->elements->m * sizeof *N);
+    if (!status) memcpy(N, of.N, (size_t)of.count * self->elements->m * sizeof *N);
     zd_release(memory);
     return status;
 }

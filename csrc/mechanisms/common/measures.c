@@ -64,7 +64,7 @@ static int measure_forces(const zd_measuring *self, const zd_output_spec *measur
     const zd_readings *of = &self->readings;
     const int is_force = measure->kind == ZD_FORCE_SUM, n = is_force ? self->numerics->forces : self->numerics->torques;
     int status = ZD_DONE;
-    for (int k = 0; k < n; k++) value[k] = 0;
+    zd_clear(n, value);
     for (int i = measure->index; i < measure->index + measure->size && !status; i++) {
         double force = 0, wrench[ZD_WRENCH_SIZE];
         status = zd_force_evaluate(self->elements, of, self->elements->force + i, t, &force, NULL);
@@ -112,7 +112,7 @@ static int find_least(const zd_measuring *self, const zd_measured_state *at)
     if (*self->is_least != 0) return ZD_DONE;
     int status = ZD_DONE;
     if (m <= ZD_MAX_LEAST) status = zd_least_reactions(self, at, self->least);
-    else memcpy(self->least, at->lambda, (size_t)m * sizeof *self->least);
+    else zd_copy_all(m, at->lambda, self->least);
     *self->is_least = !status;
     return status;
 }
@@ -122,10 +122,10 @@ static int find_changes(const zd_measuring *self, const zd_output_spec *measure,
 {
     const int m = self->elements->m;
     const double unit = strcmp(measure->unit, "N m") ? 1 : self->elements->length;
-    double change[ZD_WRENCH_SIZE], total, *N = zd_allocate(sizeof(double) * (size_t)m * (size_t)m);
+    double change[ZD_WRENCH_SIZE], total, *N = zd_allocate(sizeof(double) * m * (size_t)m);
     int count;
     if (!N) return ZD_NO_MEMORY;
-    memset(redundant, 0, (size_t)size * (size_t)m * sizeof *redundant);
+    memset(redundant, 0, (size_t)size * m * sizeof *redundant);
     int status = zd_redundant_multipliers(self, at, N, &count, &total);
     for (int j = 0; j < count && total > 0 && !status; j++) {
         status = measure_force(self, measure, &(zd_measured_state){at->t, at->p, at->v, NULL, N + j * m, 1, NULL}, change);
@@ -160,7 +160,7 @@ int zd_measures_evaluate(const zd_measuring *self, int measure, const zd_measure
     place_and_move(self, out->is_same_state, output->kind != ZD_VALUES || out->rate || out->bias, at);
     if (out->least) {
         const int status = at->lambda ? find_least(self, at) : ZD_BAD_ARGUMENT;
-        if (!status) memcpy(out->least, self->least, (size_t)self->elements->m * sizeof *out->least);
+        if (!status) zd_copy_all(self->elements->m, self->least, out->least);
         return status;
     }
     if (output->kind <= ZD_ACCELERATIONS) {

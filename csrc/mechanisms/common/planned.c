@@ -5,17 +5,17 @@
 
 void zd_elements_create(zd_element_parts *to, zd_arena *arena, const zd_elements *elements, size_t terms, size_t rows)
 {
-    terms += (size_t)elements->terms;
-    rows += (size_t)elements->relations;
+    terms += elements->terms;
+    rows += elements->relations;
 #define TAKE(member, count) to->member = zd_arena_bytes(arena, (count) * sizeof *to->member)
     TAKE(term, terms);
     TAKE(coefficient, terms);
     TAKE(row, rows);
     TAKE(owner_of_constraint, rows);
-    TAKE(constraint_of_relation, (size_t)elements->relations);
-    TAKE(force, (size_t)elements->forces);
-    TAKE(output, (size_t)elements->measures);
-    TAKE(measure, (size_t)elements->measures);
+    TAKE(constraint_of_relation, elements->relations);
+    TAKE(force, elements->forces);
+    TAKE(output, elements->measures);
+    TAKE(measure, elements->measures);
 #undef TAKE
 }
 

@@ -4,10 +4,10 @@
 
 void zd_plane_frame_divide(zd_plane *self)
 {
-    const size_t bodies = (size_t)self->tree.bodies + 1, longest = (size_t)self->elements.longest, one = sizeof(double);
+    const size_t bodies = (size_t)self->tree.bodies + 1, longest = self->elements.longest, one = sizeof(double);
     const size_t packed = self->packing ? bodies : 0, composites = bodies - packed;
     const size_t bytes[ZD_PLANE_ARRAYS] = {
-        2 * (size_t)self->revolutes * sizeof(zd_vector), 3 * packed * one, (size_t)self->lines * sizeof(zd_plane_pull),
+        2 * (size_t)self->revolutes * sizeof(zd_vector), 3 * packed * one, self->lines * sizeof(zd_plane_pull),
         self->lines ? 3 * bodies * one : 0, packed * sizeof(zd_vector), bodies * sizeof(zd_plane_pose), bodies * sizeof(zd_plane_twist),
         bodies * sizeof(zd_plane_wrench), composites * sizeof(zd_plane_composite), 3 * bodies * one, one, longest * one, longest * one,
         (longest + 3) * one, one, bodies * sizeof(zd_spin), one, (size_t)self->elements.m * one, (size_t)self->tree.nv * one};

@@ -1,6 +1,8 @@
 /* The attitude of a body is a unit quaternion q = (w, x, y, z), whose rate is half of q times its angular velocity in its own axes. */
 #include "bodies.h"
 
+#include "../../linalg/small.h"
+
 zd_rotation zd_rotation_of(const double *q)
 {
     const double w = q[0], x = q[1], y = q[2], z = q[3];
@@ -52,7 +54,7 @@ void zd_bodies_write_A(int bodies, const zd_space_planned_body *body, const doub
     for (int i = 1; i <= bodies; i++) {
         double *own = A + body[i].A;
         const int turns = body[i].turns, width = turns ? ZD_BODY_VELOCITIES : ZD_POINT_COORDINATES;
-        memset(own, 0, (size_t)((turns ? ZD_BODY_COORDINATES : ZD_POINT_COORDINATES) * width) * sizeof *own);
+        zd_clear((turns ? ZD_BODY_COORDINATES : ZD_POINT_COORDINATES) * width, own);
         for (int k = 0; k < 3; k++) own[k * width + k] = 1;
         if (turns) zd_write_turns(p + body[i].p + 3, width, own + 3 * width + 3);
     }

@@ -16,7 +16,7 @@ typedef struct parts {
 
 static void create_parts(const zd_space_tables *tables, zd_arena *arena, parts *to)
 {
-    const size_t bodies = (size_t)tables->bodies;
+    const size_t bodies = tables->bodies;
 #define TAKE(member, count) to->member = zd_arena_bytes(arena, (count) * sizeof *to->member)
     TAKE(tree, 1);
     TAKE(link, bodies + 1);
@@ -155,7 +155,7 @@ static void place_angles(zd_space *self, parts *to)
 static void carry_bodies(zd_space *self, const parts *from)
 {
     const zd_space_tree *tree = from->tree;
-    memset(self->point_joints.has_row, 0, (size_t)self->elements.m * sizeof *self->point_joints.has_row);
+    memset(self->point_joints.has_row, 0, self->elements.m * sizeof *self->point_joints.has_row);
     self->point_joints.count = self->point_joints.turns = self->point_joints.are_all = 0;
     self->carrying = (zd_carrying){zd_space_tree_place, zd_space_tree_move, zd_space_tree_act, zd_space_tree_reaction,
                                    zd_space_tree_frame_size(tree->bodies, tree->nv),
@@ -180,7 +180,7 @@ static void carry_bodies(zd_space *self, const parts *from)
 
 static zd_space *refuse(zd_space *space, void *memory, const char *why, char *message, int message_size)
 {
-    snprintf(message, (size_t)message_size, "%s", why);
+    snprintf(message, message_size, "%s", why);
     zd_release(memory);
     zd_space_free(space);
     return NULL;
@@ -193,8 +193,7 @@ zd_space *zd_space_tree_create(const zd_space_tables *tables, char *message, int
     zd_arena arena = {0};
     parts all = {.quaternions = 0};
     create_parts(tables, &arena, &all);
-    arena = (zd_arena){.base = zd_allocate(arena.used)};
-    if (!arena.base) return refuse(self, NULL, "there is no memory for the mechanism", message, message_size);
+    if (!zd_arena_allocate(&arena)) return refuse(self, NULL, "there is no memory for the mechanism", message, message_size);
     create_parts(tables, &arena, &all);
     plan_links(tables, &all);
     if (!order_bodies(all.tree, all.link, all.order)) return refuse(self, arena.base, "the tree of inboard joints must have no loop",

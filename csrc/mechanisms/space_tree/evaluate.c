@@ -1,8 +1,7 @@
 /* The equations of motion (1), (2), (3), (5), (6) in joint coordinates: rows are those of joints outside the tree, and relations. */
 #include "links.h"
 
-#include <string.h>
-
+#include "../../linalg/small.h"
 #include "../space/system/system.h"
 
 enum { ROWS = ZD_PHI | ZD_C | ZD_PHI_T | ZD_XI };
@@ -30,7 +29,7 @@ int zd_space_tree_evaluate(const void *data, int want, double t, const double *p
     if (want & ZD_MOVED) zd_space_frame_place(self, &frame, p);
     if (is_moving(self, want)) zd_space_tree_move(self, &frame, v);
     if (want & ZD_A) {
-        memset(out->A, 0, (size_t)(tree->nq * tree->nv) * sizeof *out->A);
+        zd_clear(tree->nq * tree->nv, out->A);
         zd_space_tree_write_A(tree, p, out->A);
         zd_space_tree_write_rates(self, &frame, out->A);
     }
@@ -40,6 +39,6 @@ int zd_space_tree_evaluate(const void *data, int want, double t, const double *p
     int status = want & ZD_FORCE ? write_force(self, &frame, t, out->f) : ZD_DONE;
     if (!status && (want & ZD_POWER)) status = zd_space_power(self, &frame, t, out->power);
     if (status) return status;
-    if (want & ZD_C) memset(out->C, 0, (size_t)(self->elements.m * tree->nv) * sizeof *out->C);
+    if (want & ZD_C) zd_clear(self->elements.m * tree->nv, out->C);
     return want & ROWS ? zd_space_rows_write(self, &frame, want, t, out) : ZD_DONE;
 }

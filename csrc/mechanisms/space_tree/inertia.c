@@ -2,7 +2,7 @@
  * 2008, chapters 5 and 6; here in the drawing's axes, and about mass centres. */
 #include "links.h"
 
-#include <string.h>
+#include "../../linalg/small.h"
 
 /* ---- composite bodies ---- */
 
@@ -75,7 +75,7 @@ void zd_space_tree_mass(const zd_space *space, const zd_space_frame *frame, doub
     const zd_space_tree *tree = zd_space_tree_of(space);
     const zd_space_tree_frame own = zd_space_tree_frame_of(tree, frame);
     const zd_space_pose *pose = frame->pose;
-    memset(M, 0, (size_t)(tree->nv * tree->nv) * sizeof *M);
+    zd_clear(tree->nv * tree->nv, M);
     for (int body = 0; body <= tree->bodies; body++) own.composite[body] = alone(space->body + body, &pose[body].turned);
     for (int i = tree->bodies - 1; i >= 0; i--) {
         const int body = tree->order[i];

@@ -2,7 +2,7 @@
  * wrench is then transmitted to the parent. */
 #include "links.h"
 
-#include <string.h>
+#include "../../linalg/small.h"
 
 static double work(zd_space_wrench what, const zd_space_twist *by)
 {
@@ -51,7 +51,7 @@ void zd_space_tree_gather(const zd_space *space, const zd_space_frame *frame, do
 {
     const zd_space_tree *tree = zd_space_tree_of(space);
     const zd_space_twist *column = zd_space_tree_frame_of(tree, frame).column;
-    memset(to, 0, (size_t)tree->nv * sizeof *to);
+    zd_clear(tree->nv, to);
     for (int i = tree->bodies - 1; i >= 0; i--) {
         const int body = tree->order[i];
         const zd_space_link *link = tree->link + body;

@@ -8,7 +8,7 @@ static int write_needs(const zd_space *space, const zd_space_frame *frame, const
 {
     const zd_readings readings = zd_space_frame_readings(space, frame);
     const zd_actions actions = {&space->elements, &readings, zd_space_add_force, NULL};
-    if (!at->vdot) memset(frame->wrench, 0, (size_t)(space->bodies + 1) * sizeof *frame->wrench);
+    if (!at->vdot) memset(frame->wrench, 0, (space->bodies + 1) * sizeof *frame->wrench);
     else if (zd_space_forces_apply(space, frame, at->t)) return ZD_CALLBACK;
     if (zd_rows_act(&actions, at)) return ZD_CALLBACK;
     if (at->vdot) zd_space_tree_accelerate(space, frame, at->vdot);

@@ -15,7 +15,8 @@ NAME = re.compile(r"\bzd_\w+")
 DEFINITION = re.compile(r"^(?!static|typedef|extern|#)[A-Za-z][\w *]*?\b(zd_\w+)(?:\(|(?:\[\w*\])? = )", re.MULTILINE)
 INCLUDE = re.compile(r'^#include "(.+)"', re.MULTILINE)
 DECLARATION = re.compile(r"^(?!static)[A-Za-z][^;{}=]*\([^;{}]*\);", re.MULTILINE)
-PASTED = re.compile(r"^#define OF\(name\) (\w+)##name$", re.MULTILINE)      # names in text that plane and space share
+PASTED = re.compile(r"^#define OF\(name\) (\w+)##name$", re.MULTILINE)      # names in text that plane and space share:
+SHARED = "of_dimension.h"
 COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 
 
@@ -38,8 +39,9 @@ def _texts() -> dict[str, str]:
              if "python" not in path.relative_to(top).parts}
     for path, text in texts.items():
         if of := PASTED.search(text):
-            included = (texts[_normal(PurePosixPath(path).parent / name)] for name in INCLUDE.findall(text))
-            texts[path] += "".join(re.sub(r"\bOF\((\w+)\)", rf"{of[1]}\1", each) for each in included if "OF(" in each)
+            names = (name for name in INCLUDE.findall(text) if name.endswith(SHARED))
+            shared = (texts[_normal(PurePosixPath(path).parent / name)] for name in names)
+            texts[path] += "".join(re.sub(r"\bOF\((\w+)\)", rf"{of[1]}\1", each) for each in shared)
     return texts
 
 

@@ -52,7 +52,7 @@ static int meet_staying(zd_assembly *self, double *p)
 {
     const zd_conditions drawing = {.choice = ZD_OF_DRAWING, .roles = ZD_DRAWN};
     const zd_conditions all = {.choice = ZD_OF_ALL, .roles = ZD_HELD | ZD_STAYING | ZD_DRAWN};
-    const size_t nq = (size_t)self->system->nq;
+    const size_t nq = self->system->nq;
     memcpy(self->found, p, nq * sizeof *p);
     if (!zd_assembly_newton(self, &drawing, self->found)) return 0;
     zd_assembly_approach_drawing(self, &drawing, self->found);
@@ -71,7 +71,7 @@ static int meet_staying(zd_assembly *self, double *p)
 static int meet(zd_assembly *self, double *p, int *roles)
 {
     const zd_conditions joints = {.choice = ZD_OF_JOINTS, .roles = ZD_DRAWN}, all = {.choice = ZD_OF_ALL, .roles = ZD_HELD | ZD_DRAWN};
-    memcpy(self->drawn, p, (size_t)self->system->nq * sizeof *p);
+    zd_copy_all(self->system->nq, p, self->drawn);
     if (!(zd_assembly_least_squares(self, &joints, p) <= 1e3 * ZD_CLOSED)) return ZD_JOINTS_OPEN;
     *roles = ZD_HELD | ZD_STAYING | ZD_DRAWN;
     if (zd_assembly_has(self, ZD_TARGET_STAYS, 0) && meet_staying(self, p)) return ZD_ASSEMBLED;
@@ -108,8 +108,8 @@ int zd_assembly_project(const zd_assembly_problem *given, double *p)
     zd_assembly self;
     int outcome = zd_assembly_open(&self, given, p);
     if (outcome) return outcome;
-    memcpy(self.found, p, (size_t)self.system->nq * sizeof *p);
-    if (zd_assembly_newton(&self, &all, self.found)) memcpy(p, self.found, (size_t)self.system->nq * sizeof *p);
+    zd_copy_all(self.system->nq, p, self.found);
+    if (zd_assembly_newton(&self, &all, self.found)) zd_copy_all(self.system->nq, self.found, p);
     else outcome = ZD_TARGETS_UNMET;
     return zd_assembly_close(&self, outcome);
 }
@@ -168,7 +168,7 @@ static int report_contradiction(zd_assembly *self)
 /* v <- velocities with the targets of these roles, and the wished ones */
 static int find_velocities(zd_assembly *self, int roles, const double *p, double *v)
 {
-    memset(v, 0, (size_t)self->n * sizeof *v);
+    zd_clear(self->n, v);
     zd_assembly_find_rates(self, roles, p);
     const int required = self->rows;
     zd_assembly_find_rates(self, roles | ZD_WISHED, p);

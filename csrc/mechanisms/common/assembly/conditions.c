@@ -25,9 +25,9 @@ static int widest_of(const zd_assembly_problem *given)
 
 static zd_terms create_terms(zd_arena *arena, const zd_system *system, size_t m)
 {
-    return (zd_terms){.M = zd_arena_doubles(arena, (size_t)zd_size_of_M(system)),
-                      .C = zd_arena_doubles(arena, (size_t)zd_size_of_C(system)), .Phi = zd_arena_doubles(arena, m),
-                      .Phi_t = zd_arena_doubles(arena, m), .scratch = zd_arena_doubles(arena, (size_t)system->scratch)};
+    return (zd_terms){.M = zd_arena_doubles(arena, zd_size_of_M(system)),
+                      .C = zd_arena_doubles(arena, zd_size_of_C(system)), .Phi = zd_arena_doubles(arena, m),
+                      .Phi_t = zd_arena_doubles(arena, m), .scratch = zd_arena_doubles(arena, system->scratch)};
 }
 
 static void create_steps(zd_arena *arena, zd_assembly *self, size_t n, size_t nq, size_t most)
@@ -63,8 +63,8 @@ static void weigh(zd_assembly *self, const double *p);
 static zd_assembly create(zd_arena *arena, const zd_assembly_problem *given)
 {
     const zd_system *system = given->system;
-    const size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system), targets = (size_t)given->targets, most = m + targets;
-    const size_t measures = system->measures ? (size_t)system->measures->scratch : 0;
+    const size_t n = system->nv, m = zd_constraints(system), targets = given->targets, most = m + targets;
+    const size_t measures = system->measures ? system->measures->scratch : 0;
     zd_assembly self = {
         .given = given, .system = system, .block = arena->base, .n = system->nv, .m = (int)m, .most = (int)most,
         .widest = widest_of(given), .solver = given->many ? &zd_assembly_sparse : &zd_assembly_dense,
@@ -76,7 +76,7 @@ static zd_assembly create(zd_arena *arena, const zd_assembly_problem *given)
     self.terms.inputs = given->inputs;
     for (int i = 0; i < ZD_ROLE_SETS; i++) self.size[i] = zd_arena_doubles(arena, most);
     create_rows(arena, &self, n, m, targets);
-    create_steps(arena, &self, n, (size_t)system->nq, most);
+    create_steps(arena, &self, n, system->nq, most);
     self.solver_data = self.solver->create(arena, &self);
     return self;
 }
@@ -85,8 +85,7 @@ int zd_assembly_open(zd_assembly *self, const zd_assembly_problem *given, const 
 {
     zd_arena arena = {0};
     create(&arena, given);
-    arena = (zd_arena){.base = zd_allocate(arena.used)};
-    if (!arena.base) return ZD_NO_MEMORY;
+    if (!zd_arena_allocate(&arena)) return ZD_NO_MEMORY;
     *self = create(&arena, given);
     for (int i = 0; i < given->targets; i++) self->target[i] = given->target[i].value;
     weigh(self, p);

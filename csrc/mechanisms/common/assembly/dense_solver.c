@@ -1,6 +1,5 @@
 /* Minimum-norm steps by a complete orthogonal decomposition of dense rows, damped ones by Cholesky's factors of their products. */
 #include <math.h>
-#include <string.h>
 
 #include "../../../linalg/dense.h"
 #include "../../../linalg/small.h"
@@ -16,7 +15,7 @@ typedef struct dense {
 
 static void *create(zd_arena *arena, const zd_assembly *of)
 {
-    const size_t fewer = (size_t)(of->most < of->n ? of->most : of->n);
+    const size_t fewer = of->most < of->n ? of->most : of->n;
     const dense self = {
         .required = zd_row_space_create(arena, of->most, of->n), .wished = zd_row_space_create(arena, of->given->targets, of->n),
         .square = zd_arena_doubles(arena, fewer * fewer), .factors = zd_arena_doubles(arena, fewer * fewer + 2 * fewer),
@@ -55,7 +54,7 @@ static void approach_wished(zd_assembly *self, int first, const double *weight, 
         for (int i = 0; i < n - rank; i++) A[k * (n - rank) + i] = A[k * n + rank + i];
     zd_row_space_factor(&of->wished, count, 0, RANK * sqrt(square * (n - rank)));
     double *y = self->moved;
-    for (int i = 0; i < rank; i++) y[i] = 0;
+    zd_clear(rank, y);
     zd_row_space_solve(&of->wished, right, y + rank);
     zd_row_space_turn_back(&of->required, y);
     zd_add_scaled(n, x, 1, y);
@@ -64,7 +63,7 @@ static void approach_wished(zd_assembly *self, int first, const double *weight, 
 static void solve(zd_assembly *self, int required, const double *right, const double *weight, double *x)
 {
     dense *of = self->solver_data;
-    for (int k = 0; k < self->rows; k++) self->right[k] = right[k];
+    zd_copy(self->rows, right, self->right);
     weigh_rows(self, 0, required, weight, 1, of->required.A, self->right);
     zd_row_space_factor(&of->required, required, RANK, 0);
     zd_row_space_solve(&of->required, self->right, x);
@@ -82,7 +81,7 @@ static double square_rows(zd_assembly *self)
     const dense *of = self->solver_data;
     const int m = self->rows, n = self->n, k = fewer(self);
     double *S = of->square, *x = of->factors + k * k, *y = x + k, largest = 0;
-    memset(S, 0, (size_t)(k * k) * sizeof *S);
+    zd_clear(k * k, S);
     for (int i = 0; k == m && i < m; i++)
         for (int j = 0; j <= i; j++) S[i * k + j] = S[j * k + i] = zd_dot(n, self->J[i].x, self->J[j].x);
     for (int i = 0; k < m && i < m; i++)
@@ -104,7 +103,7 @@ static int damped_step(zd_assembly *self, double mu)
     zd_copy_all(k * k, of->square, A);
     for (int i = 0; i < k; i++) A[i * k + i] += mu;
     if (zd_cholesky(k, A, A) < k) return 0;
-    memset(x, 0, (size_t)n * sizeof *x);
+    zd_clear(n, x);
     if (k == m) {
         zd_forward(m, A, self->r, y);
         zd_backward(m, A, y, y);

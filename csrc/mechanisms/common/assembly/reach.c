@@ -100,11 +100,11 @@ static void explain(reach *self, double ahead, zd_complaint to)
 int zd_assembly_explain_reach(const zd_assembly_problem *given, const double *p, const int *measure, double ahead, char *message,
                               int message_size)
 {
-    reach self = {.given = *given, .measure = measure, .role = zd_allocate((size_t)given->system->mh * sizeof(int))};
+    reach self = {.given = *given, .measure = measure, .role = zd_allocate(given->system->mh * sizeof(int))};
     self.given.role = self.role;
     const int status = !self.role ? ZD_NO_MEMORY : given->system->nv > MAX_VELOCITIES ? 0 : zd_assembly_open(&self.assembly, &self.given, p);
     if (self.assembly.block) {
-        self.p = memcpy(self.assembly.led, p, (size_t)given->system->nq * sizeof *p);
+        self.p = memcpy(self.assembly.led, p, given->system->nq * sizeof *p);
         if (begin(&self, given->t, ahead) && has_dead_point(&self, given->t + ahead, ahead))
             explain(&self, ahead, (zd_complaint){message, message_size});
         zd_assembly_close(&self.assembly, 0);

@@ -17,10 +17,7 @@ int zd_assembly_has(const zd_assembly *self, enum zd_target_role role, int is_ra
 double zd_assembly_row_times(const zd_assembly *self, int row, const double *x)
 {
     const zd_sparse_row *J = self->J + row;
-    if (!J->column) return zd_dot(J->count, J->x, x);
-    double sum = 0;
-    for (int j = 0; j < J->count; j++) sum += J->x[j] * x[J->column[j]];
-    return sum;
+    return zd_row_times(&(zd_row_of_C){J->x, J->count, J->column}, x);
 }
 
 double zd_assembly_length_of(const zd_assembly *self, int row)

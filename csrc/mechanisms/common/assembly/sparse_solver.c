@@ -15,8 +15,8 @@ typedef struct sparse {
 static void *create(zd_arena *arena, const zd_assembly *of)
 {
     const sparse self = {
-        .factor = zd_arena_doubles(arena, (size_t)of->most), .right = zd_arena_doubles(arena, (size_t)of->most),
-        .is_square = zd_arena_bytes(arena, (size_t)of->most), .x = zd_arena_doubles(arena, (size_t)of->n),
+        .factor = zd_arena_doubles(arena, of->most), .right = zd_arena_doubles(arena, of->most),
+        .is_square = zd_arena_bytes(arena, of->most), .x = zd_arena_doubles(arena, of->n),
     };
     return zd_arena_copy(arena, &self, sizeof self);
 }
@@ -45,7 +45,7 @@ static void approach_wished(zd_assembly *self, int first, const double *right, c
     double longest = 0;
     for (int k = first; k < self->rows; k++) longest = fmax(longest, weighted_length(self, k, weight));
     if (!(longest > 0)) return;
-    for (int k = 0; k < first; k++) of->right[k] = 0;
+    zd_clear(first, of->right);
     for (int times = 0; times < 2; times++) {
         for (int k = first; k < self->rows; k++) {
             of->is_square[k] = 1;

@@ -44,7 +44,7 @@ static int read_components(zd_assembly *self, int roles, int is_rate, const doub
         self->which[2 * count] = target->measure;
         self->which[2 * count++ + 1] = target->component;
     }
-    memset(self->jacobian, 0, (size_t)(2 * many->width * count) * sizeof *self->jacobian);
+    zd_clear(2 * many->width * count, self->jacobian);
     if (count) many->components(many->mechanism, p, self->at_rest, count, self->which, self->value, self->at, self->jacobian, self->measures);
     return count;
 }
@@ -58,8 +58,8 @@ static int add_body(const zd_assembly *self, int at, const double *row, int coun
         zd_add_scaled(size, x, 1, row);
         return count;
     }
-    memmove(x + size, x, (size_t)count * sizeof *x);
-    memmove(column + size, column, (size_t)count * sizeof *column);
+    memmove(x + size, x, count * sizeof *x);
+    memmove(column + size, column, count * sizeof *column);
     for (int j = 0; j < size; j++) x[j] = row[j], column[j] = at + j;
     return count + size;
 }

@@ -28,7 +28,7 @@ static zd_plane *create(const zd_varied *self, const zd_plane_tables *first, int
     char message[200];
     zd_plane_tables tables = tables_of(first, self->gravity, run);
     if (!places || !self->drives) return zd_plane_create(&tables, message, sizeof message);
-    const size_t size = (size_t)tables.elements.relations * sizeof(zd_relation);
+    const size_t size = tables.elements.relations * sizeof(zd_relation);
     zd_relation *relation = zd_allocate(size);
     if (!relation) return NULL;
     memcpy(relation, tables.elements.relation, size);
@@ -52,10 +52,10 @@ static found allocate(zd_arena *arena, const zd_varied *self, const zd_plane *dr
     const size_t bodies = 3 * (size_t)drawn->tree.bodies;
     return (found){
         .poses = zd_arena_doubles(arena, bodies), .rates = zd_arena_doubles(arena, bodies),
-            .places = zd_arena_doubles(arena, (size_t)self->drives),
-        .p = zd_arena_doubles(arena, (size_t)system->nv), .v = zd_arena_doubles(arena, (size_t)system->nv),
-        .scratch = zd_arena_doubles(arena, (size_t)system->scratch), .Phi = zd_arena_doubles(arena, (size_t)system->mh),
-        .role = zd_arena_ints(arena, (size_t)system->mh),
+            .places = zd_arena_doubles(arena, self->drives),
+        .p = zd_arena_doubles(arena, system->nv), .v = zd_arena_doubles(arena, system->nv),
+        .scratch = zd_arena_doubles(arena, system->scratch), .Phi = zd_arena_doubles(arena, system->mh),
+        .role = zd_arena_ints(arena, system->mh),
     };
 }
 
@@ -107,8 +107,7 @@ static zd_plane *start(const zd_varied *self, int64_t run, const zd_plane *drawn
 {
     zd_arena arena = {0};
     allocate(&arena, self, drawn);
-    arena = (zd_arena){.base = zd_allocate(arena.used)};
-    if (!arena.base) return NULL;
+    if (!zd_arena_allocate(&arena)) return NULL;
     const found at = allocate(&arena, self, drawn);
     zd_plane *moving = assemble(self, run, drawn, &at) ? create(self, &self->moving, run, at.places) : NULL;
     if (moving) zd_plane_state(moving, at.poses, at.rates, p, v);

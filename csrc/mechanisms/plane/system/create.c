@@ -43,18 +43,18 @@ static size_t max_rank(const zd_plane_tables *tables)
 /* Maximum number of lines: marker quantities of rows that are not of revolute joints, which have x and y of the same points. */
 static size_t max_lines(const zd_plane_tables *tables)
 {
-    size_t lines = (size_t)tables->elements.terms;
+    size_t lines = tables->elements.terms;
     for (int j = 0; j < tables->joints; j++) {
         const zd_plane_joint_kind *kind = zd_plane_joint_kind_of(tables->joint[j].kind);
         for (const zd_plane_joint_row *row = kind->row; row < kind->row + kind->rows; row++)
-            lines += (size_t)((row->quantity != ZD_PLANE_X && row->quantity != ZD_PLANE_Y) + (row->rolls != 0));
+            lines += (row->quantity != ZD_PLANE_X && row->quantity != ZD_PLANE_Y) + (row->rolls != 0);
     }
     return has_tree(tables) ? 0 : lines;
 }
 
 static void create_parts(const zd_plane_tables *tables, zd_arena *arena, parts *to)
 {
-    size_t bodies = (size_t)tables->bodies, joints = (size_t)tables->joints;
+    size_t bodies = tables->bodies, joints = tables->joints;
     size_t extra = joints * (ZD_JOINT_ROWS + 1), rows = joints * ZD_JOINT_ROWS;
 #define TAKE(member, count) to->member = zd_arena_bytes(arena, (count) * sizeof *to->member)
     TAKE(number, bodies + 1);
@@ -208,24 +208,22 @@ static void add_term(const zd_plane_joint *joint, int kind, enum zd_zero zero, d
     zd_elements_add_term(&to->elements, to->quantities++, coefficient);
 }
 
-/* Rows of all joints outside the tree, and of relations, if they are nonholonomic or not. */
-static void plan_constraints(const zd_plane_tables *tables, int nonholonomic, parts *to)
+/* Adds a constraint of a joint; a rolling one also contains its angle times the radius. */
+static void add_joint_row(parts *to, int j, int component)
 {
-    for (int j = 0; j < tables->joints; j++) {
-        const zd_plane_joint_kind *kind = zd_plane_joint_kind_of(to->joint[j].kind);
-        if (to->planned[j].carried) continue;
-        for (int i = 0; i < kind->rows; i++) {
-            const zd_plane_joint_row *row = kind->row + i;
-            if (row->nonholonomic != nonholonomic) continue;
-            const int first = to->elements.terms;
-            add_term(to->joint + j, (int)row->quantity, row->zero, 1, to);
-            if (row->rolls) add_term(to->joint + j, ZD_PLANE_ANGLE, ZD_ZERO_ANGLE, to->joint[j].length, to);
-            to->planned[j].rows[to->planned[j].row_count++] = to->elements.rows;
-            zd_elements_add_joint_row(&to->elements, first, nonholonomic, j, i);
-        }
-    }
-    zd_elements_add_relations(&tables->elements, nonholonomic, &to->elements);
+    const zd_plane_joint *joint = to->joint + j;
+    const zd_plane_joint_row *row = zd_plane_joint_kind_of(joint->kind)->row + component;
+    const int first = to->elements.terms;
+    add_term(joint, (int)row->quantity, row->zero, 1, to);
+    if (row->rolls) add_term(joint, ZD_PLANE_ANGLE, ZD_ZERO_ANGLE, joint->length, to);
+    to->planned[j].rows[to->planned[j].row_count++] = to->elements.rows;
+    zd_elements_add_joint_row(&to->elements, first, row->nonholonomic, j, component);
 }
+
+#define MECHANISM zd_plane
+#define OF(name) zd_plane_##name
+
+#include "../../common/create_of_dimension.h"
 
 /* ---- the system ---- */
 
@@ -295,15 +293,14 @@ zd_plane *zd_plane_create(const zd_plane_tables *tables, char *message, int mess
     parts all = {.quantities = 0};
     zd_arena_bytes(&arena, sizeof(zd_plane));
     create_parts(tables, &arena, &all);
-    arena = (zd_arena){.base = zd_allocate(arena.used)};
-    if (!arena.base) {
-        snprintf(message, (size_t)message_size, "there is no memory for the mechanism");
+    if (!zd_arena_allocate(&arena)) {
+        snprintf(message, message_size, "there is no memory for the mechanism");
         return NULL;
     }
     zd_plane *self = zd_arena_bytes(&arena, sizeof *self);
     create_parts(tables, &arena, &all);
     if (!number_bodies(tables, all.number)) {
-        snprintf(message, (size_t)message_size, "the tree of inboard joints must have no loop");
+        snprintf(message, message_size, "the tree of inboard joints must have no loop");
         zd_release(self);
         return NULL;
     }
@@ -316,20 +313,7 @@ void zd_plane_free(zd_plane *mechanism)
     zd_release(mechanism);
 }
 
-const zd_system *zd_plane_system(const zd_plane *mechanism) { return &mechanism->system; }
-const zd_constraint_owner *zd_plane_rows(const zd_plane *mechanism) { return mechanism->elements.owner_of_constraint; }
 const zd_plane_coordinate_owner *zd_plane_coordinates(const zd_plane *mechanism) { return mechanism->coordinate; }
-int zd_plane_data_size(void) { return (int)sizeof(zd_plane); }
-
-void zd_plane_with(const zd_plane *mechanism, void *owner, const zd_law_program *program, const double *numbers,
-                       void *data)
-{
-    zd_plane *mine = data;
-    *mine = *mechanism;
-    mine->elements.owner = owner;
-    mine->elements.program = program;
-    mine->numbers = numbers;
-}
 
 zd_plane_plan zd_plane_planned(const zd_plane *mechanism)
 {

@@ -1,6 +1,7 @@
 /* The equations of motion (2), (3), (5), (6) of a mechanism, from its tables. */
 #include "system.h"
 
+#include "../../../linalg/small.h"
 #include "../structure/packing.h"
 
 enum { ROWS = ZD_PHI | ZD_C | ZD_PHI_T | ZD_XI };
@@ -23,7 +24,7 @@ static int write_force(const zd_plane *self, const zd_plane_frame *frame, double
 /* Clears the arrays that are accumulated, well before they are: adding right after a wide store stalls the processor. */
 static void clear(const zd_plane *self, int want, const zd_terms *out)
 {
-    size_t nv = (size_t)self->tree.nv, size_of_C = self->packing ? (size_t)self->packing->packed.size_of_C : (size_t)self->elements.m * nv;
+    size_t nv = self->tree.nv, size_of_C = self->packing ? (size_t)self->packing->packed.size_of_C : (size_t)self->elements.m * nv;
     if ((want & ZD_M) && !self->packing) memset(out->M, 0, nv * nv * sizeof *out->M);
     if (want & ZD_BIAS) memset(out->d, 0, nv * sizeof *out->d);
     if ((want & ZD_FORCE) && (self->elements.forces || !self->packing)) memset(out->f, 0, nv * sizeof *out->f);
@@ -78,7 +79,7 @@ static void write_packed(const zd_plane *self, const zd_plane_frame *frame, int 
 {
     if (want & ZD_MOVED) zd_revolute_joints_turn(&self->packing->revolutes, self, frame);
     if (want & ZD_M) write_packed_mass(&self->tree, out->M);
-    if ((want & ZD_FORCE) && !self->elements.forces) memcpy(out->f, self->packing->weight, (size_t)self->tree.nv * sizeof *out->f);
+    if ((want & ZD_FORCE) && !self->elements.forces) zd_copy_all(self->tree.nv, self->packing->weight, out->f);
     zd_revolute_joints_write(&self->packing->revolutes, self, frame, want, p, v, out);
     zd_lines_write(&self->packing->lines, &self->packing->revolutes, self, frame, want, t, p, v, out);
 }

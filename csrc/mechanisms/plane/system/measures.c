@@ -1,6 +1,7 @@
 /* Numerics of measures in the plane: see ../../common/output_spec.h. */
 #include "system.h"
 
+#include "../../../linalg/small.h"
 #include "../../common/output_spec.h"
 #include "../tree.h"
 
@@ -33,7 +34,7 @@ static void write_row(const void *mechanism, const void *frame, int index, doubl
     const zd_plane_frame *at = frame;
     const zd_plane_quantity *quantity = self->quantity + index;
     const zd_plane_reading reading = zd_plane_quantity_read(quantity, at->pose);
-    memset(row, 0, (size_t)self->tree.nv * sizeof *row);
+    zd_clear(self->tree.nv, row);
     zd_plane_tree_inward(&self->tree, at->pose, quantity->first, scale, reading.first, row);
     zd_plane_tree_inward(&self->tree, at->pose, quantity->second, scale, reading.second, row);
 }

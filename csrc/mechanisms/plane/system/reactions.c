@@ -6,13 +6,14 @@
 #include "../tree.h"
 
 /* The joint's point of the second body; where a wheel rolls, the contact. */
-static zd_vector point_of(const zd_plane_frame *frame, const zd_plane_joint *joint)
+static zd_vector point_of(const zd_plane *self, const zd_plane_frame *frame, int joint)
 {
-    const zd_plane_pose *first = frame->pose + joint->first;
-    zd_vector point = zd_point_of(frame->pose + joint->second, joint->point2);
-    if (!zd_plane_joint_kind_of(joint->kind)->at_contact) return point;
-    zd_vector up = zd_turned(1, zd_rotated(first->cosine, first->sine, (zd_vector){joint->axis[0], joint->axis[1]}));
-    return zd_minus(point, zd_times(joint->length, up));
+    const zd_plane_joint *of = self->joint + joint;
+    const zd_plane_pose *first = frame->pose + of->first;
+    zd_vector point = zd_point_of(frame->pose + of->second, of->point2);
+    if (!zd_plane_joint_kind_of(of->kind)->at_contact) return point;
+    zd_vector up = zd_turned(1, zd_rotated(first->cosine, first->sine, (zd_vector){of->axis[0], of->axis[1]}));
+    return zd_minus(point, zd_times(of->length, up));
 }
 
 /* A wrench on a body, with its torque about a point instead of the mass centre. */
@@ -27,7 +28,7 @@ static int write_needs(const zd_plane *self, const zd_plane_frame *frame, const 
 {
     const zd_readings readings = zd_plane_frame_readings(self, frame);
     const zd_actions actions = {&self->elements, &readings, zd_plane_add_force, NULL};
-    if (!at->vdot) memset(frame->wrench, 0, (size_t)(self->tree.bodies + 1) * sizeof *frame->wrench);
+    if (!at->vdot) memset(frame->wrench, 0, (self->tree.bodies + 1) * sizeof *frame->wrench);
     else if (zd_plane_forces_apply(self, frame, at->t)) return ZD_CALLBACK;
     if (zd_rows_act(&actions, at)) return ZD_CALLBACK;
     if (at->vdot) zd_plane_tree_accelerate(&self->tree, frame->pose, frame->twist, at->vdot, frame->spin);
@@ -42,8 +43,8 @@ static int write_needs(const zd_plane *self, const zd_plane_frame *frame, const 
 }
 
 /* Wrench of an inboard joint on its outer body; its component along the joint's coordinate is set to zero exactly. */
-static int of_tree(const zd_plane *self, const zd_plane_frame *frame, int joint, zd_vector point, const zd_measured_state *at,
-                   zd_plane_wrench *to)
+static int through_tree(const zd_plane *self, const zd_plane_frame *frame, int joint, zd_vector point, const zd_measured_state *at,
+                        zd_plane_wrench *to)
 {
     int status = write_needs(self, frame, at), carried = self->planned[joint].carried;
     if (status) return status;
@@ -58,30 +59,8 @@ static int of_tree(const zd_plane *self, const zd_plane_frame *frame, int joint,
     return ZD_DONE;
 }
 
-/* Reaction of a joint on its second body, about a point of it. */
-typedef struct reaction_at {
-    zd_vector point;
-    zd_plane_wrench *reaction;
-} reaction_at;
+#define MECHANISM zd_plane
+#define OF(name) zd_plane_##name
+#define VECTOR zd_vector
 
-static void add_quantity(const zd_readings *at, void *to, int index, double force)
-{
-    const zd_plane_quantity *quantity = ((const zd_plane *)at->mechanism)->quantity + index;
-    const zd_plane_pose *pose = ((const zd_plane_frame *)at->frame)->pose;
-    const reaction_at *of = to;
-    zd_plane_add_wrench(of->reaction, force, about(zd_plane_quantity_read(quantity, pose).second, pose + quantity->second, of->point));
-}
-
-int zd_plane_joint_reaction(const zd_plane *self, const zd_plane_frame *frame, int joint, const zd_measured_state *at,
-                            zd_plane_wrench *reaction)
-{
-    const zd_plane_planned_joint *planned = self->planned + joint;
-    reaction_at to = {point_of(frame, self->joint + joint), reaction};
-    const zd_readings readings = zd_plane_frame_readings(self, frame);
-    const zd_actions actions = {&self->elements, &readings, add_quantity, &to};
-    *reaction = (zd_plane_wrench){.torque = 0};
-    int status = ZD_DONE;
-    if (planned->carried) status = of_tree(self, frame, joint, to.point, at, reaction);
-    else zd_joint_rows_act(&actions, planned->row_count, planned->rows, at->lambda);
-    return status ? status : zd_drives_act(&actions, joint, at);
-}
+#include "../../common/reactions_of_dimension.h"

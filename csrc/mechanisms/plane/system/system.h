@@ -5,6 +5,10 @@
 #include "../../common/output_spec.h"
 #include "../plan.h"
 
+/* For texts that are of the plane and of space: ../../common/..._of_dimension.h. */
+#define BODIES(self) (self)->tree.bodies
+#define MASS(self, index) (self)->tree.link[index].mass
+
 /* The terms of the equations of motion of a mechanism. */
 
 zd_evaluate zd_plane_evaluate;

@@ -23,8 +23,8 @@ typedef struct parts {
 
 static void create_parts(const zd_space_tables *tables, zd_arena *arena, parts *to)
 {
-    const size_t bodies = (size_t)tables->bodies, joints = (size_t)tables->joints, extra = joints * (ZD_SPACE_ROWS + 1);
-    const size_t rows = joints * ZD_SPACE_ROWS, relations = (size_t)tables->elements.relations, terms = (size_t)tables->elements.terms;
+    const size_t bodies = tables->bodies, joints = tables->joints, extra = joints * (ZD_SPACE_ROWS + 1);
+    const size_t rows = joints * ZD_SPACE_ROWS, relations = tables->elements.relations, terms = tables->elements.terms;
 #define TAKE(member, count) to->member = zd_arena_bytes(arena, (count) * sizeof *to->member)
     TAKE(self, 1);
     TAKE(body, bodies + 1);
@@ -101,17 +101,10 @@ static void add_joint_row(parts *to, int j, int component)
     zd_elements_add_joint_row(&to->elements, first, row->nonholonomic, j, component);
 }
 
-/* Rows of all joints outside the tree, and of relations, if they are nonholonomic or not. */
-static void plan_constraints(const zd_space_tables *tables, int nonholonomic, parts *to)
-{
-    for (int j = 0; j < tables->joints; j++) {
-        const zd_space_joint_kind *kind = zd_space_joint_kind_of(to->joint[j].kind);
-        if (to->planned[j].carried) continue;
-        for (int i = 0; i < kind->rows; i++)
-            if (kind->row[i].nonholonomic == nonholonomic) add_joint_row(to, j, i);
-    }
-    zd_elements_add_relations(&tables->elements, nonholonomic, &to->elements);
-}
+#define MECHANISM zd_space
+#define OF(name) zd_space_##name
+
+#include "../../common/create_of_dimension.h"
 
 /* ---- the system ---- */
 
@@ -194,15 +187,14 @@ zd_space *zd_space_create(const zd_space_tables *tables, char *message, int mess
     zd_arena arena = {0};
     parts all = {.quantities = 0};
     create_parts(tables, &arena, &all);
-    arena = (zd_arena){.base = zd_allocate(arena.used)};
-    if (!arena.base) {
-        snprintf(message, (size_t)message_size, "there is no memory for the mechanism");
+    if (!zd_arena_allocate(&arena)) {
+        snprintf(message, message_size, "there is no memory for the mechanism");
         return NULL;
     }
     create_parts(tables, &arena, &all);
     const int alone = plan(tables, &all);
     if (alone < 0) return all.self;
-    snprintf(message, (size_t)message_size, "row %d: it must depend on a body, not on the ground alone", alone);
+    snprintf(message, message_size, "row %d: it must depend on a body, not on the ground alone", alone);
     zd_release(arena.base);
     return NULL;
 }
@@ -213,25 +205,10 @@ void zd_space_free(zd_space *space)
     zd_release(space);
 }
 
-const zd_system *zd_space_system(const zd_space *space) { return &space->system; }
-
-const zd_constraint_owner *zd_space_rows(const zd_space *space) { return space->elements.owner_of_constraint; }
-
 int zd_space_angles(const zd_space *space, int *place)
 {
-    if (place) memcpy(place, space->unwrapped.place, (size_t)space->unwrapped.count * sizeof *place);
+    if (place) memcpy(place, space->unwrapped.place, space->unwrapped.count * sizeof *place);
     return space->unwrapped.count;
-}
-
-int zd_space_data_size(void) { return (int)sizeof(zd_space); }
-
-void zd_space_with(const zd_space *space, void *owner, const zd_law_program *program, const double *numbers, void *data)
-{
-    zd_space copied = *space;
-    copied.elements.owner = owner;
-    copied.elements.program = program;
-    copied.numbers = numbers;
-    memcpy(data, &copied, sizeof copied);
 }
 
 zd_space_plan zd_space_planned(const zd_space *space)

@@ -1,6 +1,7 @@
 /* The equations of motion (1), (2), (3), (5), (6) of a mechanism in space, from its tables. */
 #include "system.h"
 
+#include "../../../linalg/small.h"
 #include "../plan.h"
 
 enum { ROWS = ZD_PHI | ZD_C | ZD_PHI_T | ZD_XI };
@@ -8,7 +9,7 @@ enum { ROWS = ZD_PHI | ZD_C | ZD_PHI_T | ZD_XI };
 static int write_force(const zd_space *self, const zd_space_frame *frame, double t, double *f)
 {
     if (!self->elements.forces) {
-        memcpy(f, self->weight, (size_t)self->system.nv * sizeof *f);
+        zd_copy_all(self->system.nv, self->weight, f);
         return ZD_DONE;
     }
     const int status = zd_space_forces_apply(self, frame, t);
@@ -40,7 +41,7 @@ int zd_space_evaluate(const void *data, int want, double t, const double *p, con
     int status = want & ZD_FORCE ? write_force(self, &frame, t, out->f) : ZD_DONE;
     if (!status && (want & ZD_POWER)) status = zd_space_power(self, &frame, t, out->power);
     if (status) return status;
-    if (want & ZD_C) memset(out->C, 0, (size_t)self->packed.size_of_C * sizeof *out->C);
+    if (want & ZD_C) zd_clear(self->packed.size_of_C, out->C);
     zd_point_joints_write(&self->point_joints, &frame, want, out);
     return want & ROWS && !self->point_joints.are_all ? zd_space_rows_write(self, &frame, want, t, out) : ZD_DONE;
 }

@@ -1,6 +1,7 @@
 /* Numerics of measures in space: see ../../common/output_spec.h. */
 #include "system.h"
 
+#include "../../../linalg/small.h"
 #include "../../common/output_spec.h"
 #include "../bodies.h"
 
@@ -22,7 +23,7 @@ static void write_row(const void *mechanism, const void *frame, int index, doubl
     const zd_space_frame *at = frame;
     const zd_space_quantity *quantity = self->quantity + index;
     const zd_space_reading reading = zd_space_quantity_read(quantity, at->pose);
-    memset(row, 0, (size_t)self->system.nv * sizeof *row);
+    zd_clear(self->system.nv, row);
     if (self->carrying.act) {
         self->carrying.act(self, at, quantity, scale, &reading, row);
         return;

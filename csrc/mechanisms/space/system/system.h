@@ -4,6 +4,10 @@
 #include "../../common/actions.h"
 #include "../plan.h"
 
+/* For texts that are of the plane and of space: ../../common/..._of_dimension.h. */
+#define BODIES(self) (self)->bodies
+#define MASS(self, index) (self)->body[index].mass
+
 /* The terms of the equations of motion of a mechanism in space. */
 
 zd_evaluate zd_space_evaluate;
@@ -44,5 +48,7 @@ double zd_space_bias(const void *mechanism, const void *frame, int quantity);
 
 /* frame->wrench <- on each body the sum of magnitudes of forces, in force.x, and of moments, in torque.x. Returns ZD_DONE or ZD_CALLBACK. */
 int zd_space_force_sizes(const zd_space *self, const zd_space_frame *frame, double t);
+/* magnitude (m, 2) <- sizes of the terms of each row for velocities of mass centres, and for angular ones. */
+int zd_space_row_sizes(const zd_space *self, const zd_space_frame *frame, double t, double *magnitude);
 int zd_space_force_magnitudes(const void *data, const double *inputs, double t, const double *p, const double *v, double *magnitude,
                               double *scratch);
