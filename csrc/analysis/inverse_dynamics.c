@@ -112,7 +112,7 @@ static int find_tangent(inverse *self)
     const int k = self->freedoms;
     double *L = self->L, least = INFINITY;
     find_basis(self, L);
-    if (zd_cholesky(k, L, L) < k) return ZD_NOT_DEFINITE;
+    if (ZD_SIZED(zd_cholesky, k, L, L) < k) return ZD_NOT_DEFINITE;
     self->mobility = 0;
     for (int i = 0; i < k; i++) self->mobility = fmax(self->mobility, L[i * k + i]), least = fmin(least, L[i * k + i]);
     return least > MASSLESS * self->mobility ? ZD_DONE : ZD_NOT_DEFINITE;
@@ -198,7 +198,7 @@ static void solve(inverse *self, int64_t i, const zd_needed_efforts *to)
     zd_subtract(n, self->wanted, given->force ? given->force + i * n : self->x, self->wanted);
     project(self, count, rows, self->projected);
     project(self, 1, self->wanted, along);
-    zd_forward_rows(k, count + 1, self->L, self->projected, self->projected);
+    ZD_SIZED(zd_forward_rows, k, count + 1, self->L, self->projected, self->projected);
     to->wanted[i] = sqrt(zd_metric_dot(k, self->L, along, along));
     find_efforts(self, rows, u);
     to->rank[i] = self->acting.rank;
@@ -207,7 +207,7 @@ static void solve(inverse *self, int64_t i, const zd_needed_efforts *to)
     to->power[i] = zd_dot(n, right, point->v);
     zd_subtract(n, right, self->wanted, right);
     project(self, 1, right, along);
-    zd_forward(k, self->L, along, along);
+    ZD_SIZED(zd_forward, k, self->L, along, along);
     to->residual[i] = sqrt(zd_metric_dot(k, self->L, along, along));
     find_multipliers(self, to->multipliers + i * self->m);
 }

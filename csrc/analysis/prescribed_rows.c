@@ -16,12 +16,14 @@ zd_prescribed_rows zd_prescribed_rows_create(zd_arena *arena, const zd_prescribe
     const int rows = zd_constraints(system) + motion->quantities, positions = rows - system->mn;
     const size_t all = (size_t)rows, nv = (size_t)system->nv, components = (size_t)motion->components;
     zd_statistics *statistics = zd_arena_bytes(arena, sizeof *statistics);
+    double *of_measures = zd_arena_doubles(arena, components);
     return (zd_prescribed_rows){
         .motion = motion, .point = zd_point_create(arena, system, statistics), .positions = positions, .rows = rows,
         .unit = zd_arena_doubles(arena, all * nv), .inverse_length = zd_arena_doubles(arena, all), .value = zd_arena_doubles(arena, all),
         .bias = zd_arena_doubles(arena, all), .space = zd_row_space_create(arena, positions, system->nv),
-        .right = zd_arena_doubles(arena, all), .y = zd_arena_doubles(arena, nv), .components = zd_arena_doubles(arena, components),
-        .jacobian = zd_arena_doubles(arena, components * nv),
+        .right = zd_arena_doubles(arena, all), .y = zd_arena_doubles(arena, nv),
+        .values = {.value = of_measures, .jacobian = zd_arena_doubles(arena, components * nv)},
+        .biases = {.bias = of_measures, .is_same_state = 2},
         .scratch = zd_arena_doubles(arena, measures ? (size_t)measures->scratch : 0),
         .residuals = zd_residual_state_create(arena, system, statistics, ZD_ACCURATE),
         .rates = zd_arena_doubles(arena, 2 * (size_t)system->nq)};
@@ -45,21 +47,21 @@ static int read_quantities(zd_prescribed_rows *self, int is_bias)
 {
     const zd_prescribed_motion *motion = self->motion;
     zd_point *at = self->point;
-    const zd_measured bias = {.bias = self->components, .is_same_state = 2}, value = {.value = self->components, .jacobian = self->jacobian};
+    const zd_measured *read = is_bias ? &self->biases : &self->values;
     const int nv = at->system->nv;
     double *row = self->unit + at->system->mh * nv, *to = is_bias ? self->bias : self->value, *biases = NULL;
     int status = zd_measure_states(motion->measured, at->inputs, motion->measures, motion->measure, 1, &at->t, at->p, at->v, NULL, NULL,
-                                   is_bias ? &bias : &value, self->scratch);
+                                   read, self->scratch);
     for (int i = 0; i < motion->quantities && !status; i++, row += nv) {
         const int k = motion->which[i], coordinate = -1 - k;
-        if (k >= 0) to[i] = self->components[k];
+        if (k >= 0) to[i] = self->values.value[k];
         else if (!is_bias) status = zd_point_need(at, ZD_A), to[i] = at->p[coordinate];
         else {
             if (!biases) status = find_biases_of_coordinates(self, biases = self->rates + at->system->nq);
             to[i] = biases[coordinate];
         }
         if (is_bias || status) continue;
-        for (int j = 0; j < nv; j++) row[j] = motion->scale_v[j] * (k < 0 ? zd_entry_of_A(at, coordinate, j) : self->jacobian[k * nv + j]);
+        for (int j = 0; j < nv; j++) row[j] = motion->scale_v[j] * (k < 0 ? zd_entry_of_A(at, coordinate, j) : read->jacobian[k * nv + j]);
         self->inverse_length[at->system->mh + i] = sqrt(zd_dot(nv, row, row));
     }
     return status > 0 ? ZD_CALLBACK : status;

@@ -18,7 +18,7 @@ typedef struct zd_prescribed_rows {
     double *value, *bias;   /* (quantities,): values, and second derivatives minus row vdot, of prescribed quantities */
     zd_row_space space;     /* factors of the first `positions` rows; its pivot is 0 where they do not determine the positions */
     double *right, *y;      /* (rows,), (nv,): right-hand side, and its solution in scaled velocities */
-    double *components, *jacobian;      /* (components,), (components, nv): values or biases of measures, and derivatives */
+    zd_measured values, biases;         /* results for all components of measures: values and jacobians; biases, in the memory of values */
     double *scratch;        /* work array of measures */
     zd_residual_state residuals;    /* for second derivatives of coordinates */
     double *rates;          /* (2, nq) temporary */

@@ -43,7 +43,7 @@ static void create(least_reactions *to, zd_arena *arena, const zd_measuring *sel
 static double largest_arm(const zd_measuring *self, int quantity)
 {
     double wrench[ZD_WRENCH_SIZE] = {0};
-    self->numerics->unit_wrench(self->readings.mechanism, self->readings.frame, quantity, wrench);
+    self->numerics->unit_wrench(self->readings->mechanism, self->readings->frame, quantity, wrench);
     const double pull = zd_dot(ZD_WRENCH_FORCE, wrench, wrench), turn = zd_dot(ZD_WRENCH_FORCE, wrench + 3, wrench + 3);
     return fmax(sqrt(pull) * fmin(self->elements->length, 1), sqrt(turn));
 }
@@ -51,7 +51,7 @@ static double largest_arm(const zd_measuring *self, int quantity)
 /* C (m, nv) <- constraints, each divided by its norm; norm (m,), 0 where one is zero up to rounding */
 static int write_constraints(const zd_measuring *self, double t, double *C, double *norm)
 {
-    const zd_readings *of = &self->readings;
+    const zd_readings *of = self->readings;
     const zd_planned_elements *elements = self->elements;
     const int n = self->nv, m = elements->m;
     double longest = 0;
@@ -61,7 +61,7 @@ static int write_constraints(const zd_measuring *self, double t, double *C, doub
         const int status = zd_combine(elements, of, row, t, &all);
         if (status) return ZD_CALLBACK;
         for (int k = 0; k < row->terms; k++) {
-            self->numerics->write_row(of->mechanism, of->frame, elements->term[row->first + k].quantity, all.factors[k], self->row);
+            self->numerics->write_row(of->mechanism, of->frame, elements->term[row->first + k].quantity, all.factors[k], self->row, NULL);
             zd_add_scaled(n, C + i * n, 1, self->row);
             longest = fmax(longest, fabs(all.factors[k]) * largest_arm(self, elements->term[row->first + k].quantity));
         }
@@ -96,7 +96,7 @@ static void write_null_vectors(least_reactions *of, int m)
 /* size (2,) <- largest force, and moment about the centre of mass, that a relation puts on a body */
 static int find_largest(const zd_measuring *self, const zd_measured_state *at, int relation, double *size)
 {
-    const zd_readings *of = &self->readings;
+    const zd_readings *of = self->readings;
     const zd_relation *row = self->elements->row + self->elements->constraint_of_relation[relation];
     const zd_quantity_term *term = self->elements->term + row->first;
     size[0] = size[1] = 0;
@@ -121,7 +121,7 @@ static int find_largest(const zd_measuring *self, const zd_measured_state *at, i
 /* to (rows,) <- wrenches of all joints, and the largest ones of relations without a joint, weighted; linear in the multipliers */
 static int write_wrenches(const zd_measuring *self, const zd_measured_state *at, double *to)
 {
-    const zd_readings *of = &self->readings;
+    const zd_readings *of = self->readings;
     const zd_planned_elements *elements = self->elements;
     for (int joint = 0; joint < self->joints; joint++, to += ZD_WRENCH_SIZE) {
         memset(to, 0, ZD_WRENCH_SIZE * sizeof *to);

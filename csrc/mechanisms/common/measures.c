@@ -9,7 +9,7 @@
 /* Places the frame at the state, and moves it if twists are needed, unless the previous call has done so. */
 static void place_and_move(const zd_measuring *self, int is_same_state, int needs_twists, const zd_measured_state *at)
 {
-    const zd_readings *of = &self->readings;
+    const zd_readings *of = self->readings;
     if (!is_same_state) *self->is_placed = 0;
     if (is_same_state != 1) *self->is_moving = *self->is_least = 0;
     if (*self->is_placed == 0) self->numerics->place(of->mechanism, of->frame, at->p);
@@ -23,19 +23,18 @@ static void place_and_move(const zd_measuring *self, int is_same_state, int need
 static void measure_quantity(const zd_measuring *self, const zd_output_spec *measure, int i, const zd_measured_state *at,
                              const zd_measured *out)
 {
-    const zd_readings *of = &self->readings;
+    const zd_readings *of = self->readings;
     const int quantity = measure->index + i, is_value = measure->kind == ZD_VALUES, is_acceleration = measure->kind == ZD_ACCELERATIONS;
     const double s = measure->scale;
     const double rate = !is_value || out->rate ? zd_rate_of(of, quantity) : 0;
     const double bias = is_acceleration || out->bias ? self->numerics->bias(of->mechanism, of->frame, quantity) : 0;
-    if (is_acceleration) {
-        self->numerics->write_row(of->mechanism, of->frame, quantity, s, self->row);
-        if (out->value) out->value[i] = s * bias + zd_dot(self->nv, self->row, at->vdot);
-        return;
-    }
-    if (out->value) out->value[i] = s * (is_value ? zd_value_of(of, quantity) : rate);
+    double *row = is_acceleration ? self->row : out->jacobian ? out->jacobian + i * self->nv : NULL;
+    double value = rate, *read = is_value && out->value ? &value : NULL;
+    if (row) self->numerics->write_row(of->mechanism, of->frame, quantity, s, row, read);
+    else if (read) value = zd_value_of(of, quantity);
+    if (out->value) out->value[i] = is_acceleration ? s * bias + zd_dot(self->nv, row, at->vdot) : s * value;
+    if (is_acceleration) return;
     if (out->rate && is_value) out->rate[i] = s * rate;
-    if (out->jacobian) self->numerics->write_row(of->mechanism, of->frame, quantity, s, out->jacobian + i * self->nv);
     if (out->bias) out->bias[i] = s * bias;
 }
 
@@ -49,7 +48,7 @@ static double inner(int n, const double *a, const double *b)
 /* Force of a joint between two points along the line that joins them, positive in tension. */
 static int measure_tension(const zd_measuring *self, int joint, const zd_measured_state *at, double *value)
 {
-    const zd_readings *of = &self->readings;
+    const zd_readings *of = self->readings;
     const int n = self->numerics->forces;
     double wrench[ZD_WRENCH_SIZE], apart[ZD_WRENCH_FORCE];
     const int status = self->numerics->reaction(of->mechanism, of->frame, joint, at, wrench);
@@ -61,7 +60,7 @@ static int measure_tension(const zd_measuring *self, int joint, const zd_measure
 /* Sum of the forces or torques of `size` generalized forces from measure->index on, on their second body. */
 static int measure_forces(const zd_measuring *self, const zd_output_spec *measure, double t, double *value)
 {
-    const zd_readings *of = &self->readings;
+    const zd_readings *of = self->readings;
     const int is_force = measure->kind == ZD_FORCE_SUM, n = is_force ? self->numerics->forces : self->numerics->torques;
     int status = ZD_DONE;
     zd_clear(n, value);
@@ -76,7 +75,7 @@ static int measure_forces(const zd_measuring *self, const zd_output_spec *measur
 
 static int measure_reaction(const zd_measuring *self, const zd_output_spec *measure, const zd_measured_state *at, double *value)
 {
-    const zd_readings *of = &self->readings;
+    const zd_readings *of = self->readings;
     const int is_torque = measure->kind == ZD_JOINT_TORQUE, n = is_torque ? self->numerics->torques : self->numerics->forces;
     double wrench[ZD_WRENCH_SIZE] = {0}, r[ZD_WRENCH_FORCE] = {0}, *F = wrench;
     const int status = self->numerics->reaction(of->mechanism, of->frame, measure->index, at, wrench);
@@ -91,11 +90,11 @@ static int measure_force(const zd_measuring *self, const zd_output_spec *measure
     switch (measure->kind) {
     case ZD_JOINT_TENSION: return measure_tension(self, measure->index, at, value);
     case ZD_FORCE_VALUE:
-    case ZD_FORCE_POWER: return zd_output_force(self->elements, &self->readings, measure, at->t, value);
+    case ZD_FORCE_POWER: return zd_output_force(self->elements, self->readings, measure, at->t, value);
     case ZD_FORCE_SUM:
     case ZD_TORQUE_SUM: return measure_forces(self, measure, at->t, value);
     case ZD_DRIVE_VALUE:
-    case ZD_DRIVE_POWER: return zd_output_drive(self->elements, &self->readings, measure, at->t, at->lambda, value);
+    case ZD_DRIVE_POWER: return zd_output_drive(self->elements, self->readings, measure, at->t, at->lambda, value);
     default: return measure_reaction(self, measure, at, value);
     }
 }
@@ -173,5 +172,5 @@ int zd_measures_evaluate(const zd_measuring *self, int measure, const zd_measure
 int zd_measures_read(const zd_measuring *self, int law, const zd_measured_state *at, const double *r, int is_same_state, double *u)
 {
     place_and_move(self, is_same_state, 1, at);
-    return zd_force_read(self->elements, &self->readings, law, at->t, r, u);
+    return zd_force_read(self->elements, self->readings, law, at->t, r, u);
 }

@@ -37,10 +37,10 @@ static void apart_of(const void *mechanism, const void *frame, int joint, double
 static const zd_measure_numerics NUMERICS = {
     FORCES, TORQUES, place, move, OF(bias), write_row, unit_wrench, unit_wrenches, reaction_of, apart_of};
 
-static zd_measuring measuring_of(const MECHANISM *self, const OF(frame) *frame)
+static zd_measuring measuring_of(const MECHANISM *self, const OF(frame) *frame, const zd_readings *readings)
 {
     return (zd_measuring){
-        .numerics = &NUMERICS, .elements = &self->elements, .readings = OF(frame_readings)(self, frame), .nv = self->system.nv,
+        .numerics = &NUMERICS, .elements = &self->elements, .readings = readings, .nv = self->system.nv,
         .joints = self->joints, .is_placed = frame->is_placed, .is_moving = frame->is_moving, .is_least = frame->is_least,
         .least = frame->least, .row = frame->row};
 }
@@ -49,9 +49,11 @@ static int evaluate(const void *data, const double *inputs, int measure, double 
                     const double *lambda, const zd_measured *out, double *scratch)
 {
     const MECHANISM *self = data;
-    OF(frame) frame = OF(frame_of)(self, scratch);
+    OF(frame) frame;
+    OF(frame_of)(self, scratch, &frame);
     frame.inputs = inputs;
-    const zd_measuring measuring = measuring_of(self, &frame);
+    const zd_readings readings = OF(frame_readings)(self, &frame);
+    const zd_measuring measuring = measuring_of(self, &frame, &readings);
     return zd_measures_evaluate(&measuring, measure, &(zd_measured_state){t, p, v, vdot, lambda, 0, out->efforts}, out);
 }
 
@@ -59,8 +61,10 @@ int OF(read)(const void *data, int law, double t, const double *p, const double 
              double *scratch)
 {
     const MECHANISM *self = data;
-    const OF(frame) frame = OF(frame_of)(self, scratch);
-    const zd_measuring measuring = measuring_of(self, &frame);
+    OF(frame) frame;
+    OF(frame_of)(self, scratch, &frame);
+    const zd_readings readings = OF(frame_readings)(self, &frame);
+    const zd_measuring measuring = measuring_of(self, &frame, &readings);
     return zd_measures_read(&measuring, law, &(zd_measured_state){t, p, v, NULL, NULL, 0, NULL}, r, is_same_state, u);
 }
 
@@ -68,14 +72,15 @@ zd_measures OF(measures)(const MECHANISM *self, zd_measure *measure)
 {
     const int count = self->measures.count;
     zd_output_list(&self->elements, count, NUMERICS.forces, NUMERICS.torques, measure);
-    return (zd_measures){count, measure, self->system.scratch, evaluate};
+    return (zd_measures){count, measure, 0, evaluate};
 }
 
 void OF(components)(const void *mechanism, const double *p, const double *v, int count, const int *which, double *value, int *at, double *row,
                     double *scratch)
 {
     const MECHANISM *self = mechanism;
-    const OF(frame) frame = OF(frame_of)(self, scratch);
+    OF(frame) frame;
+    OF(frame_of)(self, scratch, &frame);
     const zd_readings readings = OF(frame_readings)(self, &frame);
     place(self, &frame, p);
     move(self, &frame, v);

@@ -18,7 +18,8 @@ typedef struct zd_measure_numerics {
     void (*place)(const void *mechanism, const void *frame, const double *p);
     void (*move)(const void *mechanism, const void *frame, const double *v);
     double (*bias)(const void *mechanism, const void *frame, int quantity);     /* second derivative of a marker quantity at vdot = 0 */
-    void (*write_row)(const void *mechanism, const void *frame, int quantity, double scale, double *row);      /* (nv,) */
+    /* row (nv,), and the value of the marker quantity, NULL: not wanted */
+    void (*write_row)(const void *mechanism, const void *frame, int quantity, double scale, double *row, double *value);
     void (*unit_wrench)(const void *mechanism, const void *frame, int quantity, double *wrench);   /* unit force on the second body */
     /* body (2,) of a marker quantity, and wrench (2, ZD_WRENCH_SIZE) of a unit force on them about their centres of mass */
     void (*unit_wrenches)(const void *mechanism, const void *frame, int quantity, int *body, double *wrench);
@@ -30,7 +31,7 @@ typedef struct zd_measure_numerics {
 typedef struct zd_measuring {
     const zd_measure_numerics *numerics;
     const zd_planned_elements *elements;
-    zd_readings readings;
+    const zd_readings *readings;
     int nv, joints;
     double *is_placed, *is_moving;      /* 1 if poses, twists belong to the current state */
     double *is_least, *least;           /* 1 if (m,) multipliers of the least reactions belong to the current state */

@@ -1,6 +1,8 @@
 /* Elements in their planned form: rows of joints and relations in the order of C, generalized forces and measures. */
 #pragma once
 
+#include <string.h>
+
 #include "../../include/zerodrift/system.h"
 #include "../../workspace.h"
 #include "elements.h"
@@ -48,6 +50,24 @@ void zd_elements_add_relations(const zd_elements *elements, int nonholonomic, zd
 zd_planned_elements zd_elements_plan(const zd_elements *elements, const zd_element_parts *from, int mh);
 /* Bit mask of the terms of (2), (3), (5) and (6) that rows and generalized forces provide. */
 int zd_elements_terms(const zd_elements *elements, const zd_planned_elements *planned);
+
+/* Memory of a mechanism at one state: arrays in a scratch, whose addresses are a struct, the frame, that begins with them. */
+
+/* at (count + 1,) <- bytes before each array, and their sum; sizes of scratch: the system has the first `own` arrays, measures have all */
+static inline void zd_divide(int count, int own, const size_t *bytes, size_t *at, zd_system *system, zd_measures *measures)
+{
+    for (int i = 0; i < count; i++) at[i + 1] = at[i] + bytes[i];
+    system->scratch = (int)(at[own] / sizeof(double));
+    measures->scratch = (int)(at[count] / sizeof(double));
+}
+
+static inline void zd_find_arrays(int count, const size_t *at, double *scratch, void *frame)
+{
+    for (int i = 0; i < count; i++) {
+        char *array = (char *)scratch + at[i];
+        memcpy((char *)frame + (size_t)i * sizeof array, &array, sizeof array);
+    }
+}
 
 /* Access to values and rates of marker quantities at one state. */
 

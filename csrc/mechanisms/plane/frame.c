@@ -11,16 +11,13 @@ void zd_plane_frame_divide(zd_plane *self)
         self->lines ? 3 * bodies * one : 0, packed * sizeof(zd_vector), bodies * sizeof(zd_plane_pose), bodies * sizeof(zd_plane_twist),
         bodies * sizeof(zd_plane_wrench), composites * sizeof(zd_plane_composite), 3 * bodies * one, one, longest * one, longest * one,
         (longest + 3) * one, one, bodies * sizeof(zd_spin), one, (size_t)self->elements.m * one, (size_t)self->tree.nv * one};
-    for (int i = 0; i < ZD_PLANE_ARRAYS; i++) self->frame_at[i + 1] = self->frame_at[i] + bytes[i];
+    zd_divide(ZD_PLANE_ARRAYS, ZD_PLANE_OF_MEASURES, bytes, self->frame_at, &self->system, &self->measures);
 }
 
-zd_plane_frame zd_plane_frame_of(const zd_plane *mechanism, double *scratch)
+void zd_plane_frame_of(const zd_plane *mechanism, double *scratch, zd_plane_frame *frame)
 {
-    char *all[ZD_PLANE_ARRAYS];
-    zd_plane_frame frame = {.inputs = NULL};
-    for (int i = 0; i < ZD_PLANE_ARRAYS; i++) all[i] = (char *)scratch + mechanism->frame_at[i];
-    memcpy(&frame, all, sizeof all);
-    return frame;
+    zd_find_arrays(ZD_PLANE_ARRAYS, mechanism->frame_at, scratch, frame);
+    frame->inputs = NULL;
 }
 
 static double value_of(const void *mechanism, const void *frame, int quantity)

@@ -65,8 +65,8 @@ typedef struct zd_plane_frame {
     const double *inputs;           /* values of user functions of forces, if some of these read reactions; else NULL */
 } zd_plane_frame;
 
-zd_plane_frame zd_plane_frame_of(const zd_plane *mechanism, double *scratch);
-void zd_plane_frame_divide(zd_plane *mechanism);     /* sets frame_at */
+void zd_plane_frame_of(const zd_plane *mechanism, double *scratch, zd_plane_frame *frame);
+void zd_plane_frame_divide(zd_plane *mechanism);     /* sets frame_at, and the sizes of scratch */
 /* Marker quantities of a placed frame; their rates need a moving one. */
 zd_readings zd_plane_frame_readings(const zd_plane *mechanism, const zd_plane_frame *frame);
 

@@ -5,7 +5,8 @@
 void zd_plane_poses(const zd_plane *mechanism, const double *p, const double *v, double *poses, double *rates, double *scratch)
 {
     const zd_plane_tree *tree = &mechanism->tree;
-    const zd_plane_frame frame = zd_plane_frame_of(mechanism, scratch);
+    zd_plane_frame frame;
+    zd_plane_frame_of(mechanism, scratch, &frame);
     zd_plane_tree_turn(tree, p, frame.sines);
     zd_plane_tree_place(tree, p, frame.sines, frame.pose);
     if (v) zd_plane_tree_move(tree, frame.pose, v, frame.twist);

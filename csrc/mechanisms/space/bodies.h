@@ -46,6 +46,8 @@ typedef struct zd_space_reading {
 } zd_space_reading;
 
 zd_space_reading zd_space_quantity_read(const zd_space_quantity *quantity, const zd_space_pose *pose);
+/* The same with any value, as an angle's takes long. */
+zd_space_reading zd_space_quantity_wrenches(const zd_space_quantity *quantity, const zd_space_pose *pose);
 /* Value of a marker quantity; one that counts turns takes them from angle (angles,), the joint angles. */
 double zd_space_quantity_value(const zd_space_quantity *quantity, const zd_space_pose *pose, const double *angle);
 /* The same from its value without turns. */

@@ -1,51 +1,24 @@
-/* The scratch of a mechanism in space, laid out once for its size and once for its parts. */
+/* Layout of the scratch memory of a mechanism in space. */
 #include "bodies.h"
 #include "plan.h"
 
-enum { POSE = sizeof(zd_space_pose) / sizeof(double), TWIST = sizeof(zd_space_twist) / sizeof(double),
-      WRENCH = sizeof(zd_space_wrench) / sizeof(double),
-       QUATERNION = 4, ARMS = sizeof(zd_arms) / sizeof(double), DIRECTIONS = sizeof(zd_directions) / sizeof(double) };
-
-zd_space_frame zd_space_frame_of(const zd_space *space, double *scratch)
+void zd_space_frame_divide(zd_space *self)
 {
-    const int all = space->bodies + 1;
-    zd_space_frame frame = {.pose = (zd_space_pose *)scratch};
-    scratch += all * POSE;
-    frame.twist = (zd_space_twist *)scratch;
-    scratch += all * TWIST;
-    frame.wrench = (zd_space_wrench *)scratch;
-    scratch += all * WRENCH;
-    frame.quaternion = scratch;
-    scratch += all * QUATERNION;
-    frame.angle = scratch;
-    scratch += space->unwrapped.count;
-    frame.arms = (zd_arms *)scratch;
-    scratch += space->point_joints.count * ARMS;
-    frame.directions = (zd_directions *)scratch;
-    scratch += space->point_joints.count * DIRECTIONS;
-    frame.turns = scratch;
-    scratch += space->point_joints.turns;
-    frame.row = scratch;
-    scratch += all * ZD_BODY_VELOCITIES;
-    frame.is_placed = scratch++;
-    frame.is_moving = scratch++;
-    frame.is_least = scratch++;
-    frame.least = scratch;
-    scratch += space->elements.m;
-    frame.x = scratch;
-    frame.xdot = frame.x + space->elements.longest;
-    frame.out = frame.xdot + space->elements.longest;
-    if (!space->carrying.place) return frame;
-    frame.bias = (zd_space_twist *)(frame.out + space->elements.longest + 3);
-    frame.carried = (double *)(frame.bias + all);
-    return frame;
+    const size_t bodies = (size_t)self->bodies + 1, longest = (size_t)self->elements.longest, one = sizeof(double);
+    const size_t joints = (size_t)self->point_joints.count, carried = self->carrying.place ? bodies : 0;
+    const size_t bytes[ZD_SPACE_ARRAYS] = {
+        bodies * sizeof(zd_space_pose), bodies * sizeof(zd_space_twist), bodies * sizeof(zd_space_wrench), 4 * bodies * one,
+        (size_t)self->unwrapped.count * one, joints * sizeof(zd_arms), joints * sizeof(zd_directions), (size_t)self->point_joints.turns * one,
+        longest * one, longest * one, (longest + 3) * one, carried * sizeof(zd_space_twist), (size_t)self->carrying.scratch * one,
+        one, one, one, (size_t)self->elements.m * one, ZD_BODY_VELOCITIES * bodies * one};
+    zd_divide(ZD_SPACE_ARRAYS, ZD_SPACE_OF_MEASURES, bytes, self->frame_at, &self->system, &self->measures);
 }
 
-int zd_space_frame_size(const zd_space *space)
+void zd_space_frame_of(const zd_space *space, double *scratch, zd_space_frame *frame)
 {
-    return (space->bodies + 1) * (POSE + TWIST + WRENCH + QUATERNION + ZD_BODY_VELOCITIES) + space->point_joints.count * (ARMS + DIRECTIONS)
-         + space->unwrapped.count + space->point_joints.turns + 3 + space->elements.m + 3 * space->elements.longest + 3
-             + (space->carrying.place ? (space->bodies + 1) * TWIST + space->carrying.scratch : 0);
+    zd_find_arrays(ZD_SPACE_ARRAYS, space->frame_at, scratch, frame);
+    frame->inputs = NULL;
+    if (!space->carrying.place) frame->bias = NULL;
 }
 
 void zd_space_frame_place(const zd_space *space, const zd_space_frame *frame, const double *p)

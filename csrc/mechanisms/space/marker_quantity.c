@@ -116,11 +116,11 @@ static void read_contact(const zd_space_quantity *quantity, const zd_space_pose 
 }
 
 /* The angle of (a . b, o . b): see enum zd_space_quantity_kind. */
-static void read_angle(const zd_space_quantity *quantity, const zd_space_pose *pose, zd_vector3 a, zd_space_reading *to)
+static void read_angle(const zd_space_quantity *quantity, const zd_space_pose *pose, zd_vector3 a, int has_value, zd_space_reading *to)
 {
     const zd_vector3 o = direction_of(pose + quantity->first, quantity->o), b = direction_of(pose + quantity->second, quantity->b);
     const double x = zd_inner3(a, b), y = zd_inner3(o, b);
-    to->value = atan2(y, x);
+    if (has_value) to->value = atan2(y, x);
     twist_both(zd_times3(1 / (x * x + y * y), zd_cross3(b, zd_minus3(zd_times3(x, o), zd_times3(y, a)))), to);
 }
 
@@ -185,7 +185,7 @@ static zd_vector3 apart_of(const zd_space_quantity *quantity, const zd_space_pos
                      zd_space_point_of(pose + quantity->first, quantity->point1));
 }
 
-zd_space_reading zd_space_quantity_read(const zd_space_quantity *quantity, const zd_space_pose *pose)
+static zd_space_reading read(const zd_space_quantity *quantity, const zd_space_pose *pose, int has_value)
 {
     zd_space_reading to = {.value = 0};
     if (quantity->kind <= ZD_SPACE_Z) {
@@ -197,7 +197,7 @@ zd_space_reading zd_space_quantity_read(const zd_space_quantity *quantity, const
     switch (quantity->kind) {
     case ZD_SPACE_ALONG: read_along(quantity, pose, a, apart_of(quantity, pose), &to); break;
     case ZD_SPACE_COSINE: read_cosine(quantity, pose, a, &to); break;
-    case ZD_SPACE_ANGLE: read_angle(quantity, pose, a, &to); break;
+    case ZD_SPACE_ANGLE: read_angle(quantity, pose, a, has_value, &to); break;
     case ZD_SPACE_ROTATION: read_rotation(quantity, pose, a, &to); break;
     case ZD_SPACE_DISTANCE: read_distance(quantity, pose, apart_of(quantity, pose), &to); break;
     case ZD_SPACE_GLIDE: to.second = (zd_space_wrench){a, zd_cross3(direction_of(pose + quantity->second, quantity->point2), a)}; break;
@@ -208,6 +208,10 @@ zd_space_reading zd_space_quantity_read(const zd_space_quantity *quantity, const
     to.value -= quantity->zero;
     return to;
 }
+
+zd_space_reading zd_space_quantity_read(const zd_space_quantity *quantity, const zd_space_pose *pose) { return read(quantity, pose, 1); }
+
+zd_space_reading zd_space_quantity_wrenches(const zd_space_quantity *quantity, const zd_space_pose *pose) { return read(quantity, pose, 0); }
 
 int zd_space_quantity_is_mutual(const zd_space_quantity *quantity)
 {
@@ -299,7 +303,7 @@ static double bias_of_contact(const zd_space_quantity *quantity, const zd_space_
 
 double zd_space_quantity_rate(const zd_space_quantity *quantity, const zd_space_pose *pose, const zd_space_twist *twist)
 {
-    const zd_space_reading reading = zd_space_quantity_read(quantity, pose);
+    const zd_space_reading reading = zd_space_quantity_wrenches(quantity, pose);
     return work(reading.first, twist + quantity->first) + work(reading.second, twist + quantity->second);
 }
 

@@ -41,6 +41,8 @@ typedef struct zd_unwrapped_angles {
     int *joint, *place;             /* (count,) its joint, and its index in p */
 } zd_unwrapped_angles;
 
+enum { ZD_SPACE_ARRAYS = 18, ZD_SPACE_OF_MEASURES = 13 };   /* number of arrays of a frame, and the first that measures alone use */
+
 struct zd_space {
     const double *numbers;          /* inputs of generated functions; NULL: there are none */
     zd_vector3 gravity;
@@ -55,6 +57,7 @@ struct zd_space {
     zd_point_joints point_joints;
     zd_carrying carrying;           /* its functions are NULL where all bodies are free */
     zd_unwrapped_angles unwrapped;
+    size_t frame_at[ZD_SPACE_ARRAYS + 1];       /* bytes before each array of a frame, and their sum */
     zd_system system;               /* its data is the mechanism */
     zd_measures measures;
 };
@@ -69,17 +72,17 @@ typedef struct zd_space_frame {
     zd_arms *arms;                  /* (point joints,), as the next */
     zd_directions *directions;
     double *turns;                  /* angular entries of the point joints' rows, see point_joints.c */
-    double *is_placed, *is_moving;  /* used by measures only: 1 if poses and twists belong to the current state */
-    double *is_least, *least;       /* used by measures only: 1 if (m,) multipliers of the least reactions belong to the current state */
-    double *row;                    /* (nv,) of measures alone */
-    const double *inputs;           /* values of user functions of forces, if some of these read reactions; else NULL */
     double *x, *xdot, *out;         /* inputs of user functions, (longest,) each, and their output, (longest + 3,) */
     zd_space_twist *bias;                /* accelerations of bodies of a tree at vdot = 0; NULL: all bodies are free, and have none */
     double *carried;                /* (carrying.scratch,) */
+    double *is_placed, *is_moving;  /* for measures, as those that follow: 1 if poses and twists belong to the current state */
+    double *is_least, *least;       /* 1 if (m,) multipliers of the least reactions belong to the current state */
+    double *row;                    /* (nv,) */
+    const double *inputs;           /* values of user functions of forces, if some of these read reactions; else NULL */
 } zd_space_frame;
 
-zd_space_frame zd_space_frame_of(const zd_space *space, double *scratch);
-int zd_space_frame_size(const zd_space *space);      /* doubles */
+void zd_space_frame_of(const zd_space *space, double *scratch, zd_space_frame *frame);
+void zd_space_frame_divide(zd_space *space);     /* sets frame_at, and the sizes of scratch */
 /* From coordinates to poses, and from velocities to twists. */
 void zd_space_frame_place(const zd_space *space, const zd_space_frame *frame, const double *p);
 void zd_space_frame_move(const zd_space *space, const zd_space_frame *frame, const double *v);

@@ -17,7 +17,8 @@ ZD_INLINE void turn(const double *q, const double *omega, double *rate)
 static void times_A(const void *data, const zd_terms *terms, const double *x, double *restrict y)
 {
     const zd_space *self = data;
-    const zd_space_frame frame = zd_space_frame_of(self, terms->scratch);
+    zd_space_frame frame;
+    zd_space_frame_of(self, terms->scratch, &frame);
     const double *q = frame.quaternion + 4;
     for (const zd_space_planned_body *body = self->body + 1; body <= self->body + self->bodies; body++, q += 4) {
         const double *own = x + body->v;
@@ -65,11 +66,17 @@ ZD_INLINE void times_all(const int rows, const zd_point_joints *self, const doub
     default: kernel(0, __VA_ARGS__);                \
     }
 
+static const double *turns_in(const zd_space *self, const zd_terms *terms)
+{
+    zd_space_frame frame;
+    zd_space_frame_of(self, terms->scratch, &frame);
+    return frame.turns;
+}
+
 static void times_C(const void *data, const zd_terms *terms, const double *x, double *y)
 {
     const zd_space *self = data;
-    const double *turns = zd_space_frame_of(self, terms->scratch).turns;
-    FOR_ROWS(times_all, self->point_joints.rows, &self->point_joints, turns, x, y)
+    FOR_ROWS(times_all, self->point_joints.rows, &self->point_joints, turns_in(self, terms), x, y)
 }
 
 /* Angular entries of C of a point joint for one of its bodies; `end` is numbered as in zd_point_joints. */
@@ -106,8 +113,7 @@ ZD_INLINE void subtract_all(const int rows, const zd_space *space, const double 
 static void subtract_weighted(const void *data, const zd_terms *terms, const double *W, const double *y, const int *place, double *x)
 {
     const zd_space *self = data;
-    const double *turns = zd_space_frame_of(self, terms->scratch).turns;
-    FOR_ROWS(subtract_all, self->point_joints.rows, self, turns, W, y, place, x)
+    FOR_ROWS(subtract_all, self->point_joints.rows, self, turns_in(self, terms), W, y, place, x)
 }
 
 /* to (a, b) <- to + A B^T of so many rows of three, and in the first three of each the sign times w; turned: the transpose */
@@ -151,8 +157,7 @@ ZD_INLINE void add_all(const int rows, const zd_space *space, const double *turn
 static void add_weighted(const void *data, const zd_terms *terms, const double *W, const int *at, double *S)
 {
     const zd_space *self = data;
-    const double *turns = zd_space_frame_of(self, terms->scratch).turns;
-    FOR_ROWS(add_all, self->point_joints.rows, self, turns, W, at, S)
+    FOR_ROWS(add_all, self->point_joints.rows, self, turns_in(self, terms), W, at, S)
 }
 
 const zd_operations zd_point_joint_products = {

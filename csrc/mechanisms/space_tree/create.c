@@ -164,7 +164,7 @@ static void carry_bodies(zd_space *self, const parts *from)
     system->nq = tree->nq;
     system->nv = tree->nv;
     if (!from->quaternions && !from->followers) system->provides &= ~ZD_A;
-    system->scratch = self->measures.scratch = zd_space_frame_size(self);
+    zd_space_frame_divide(self);
     system->evaluate = zd_space_tree_evaluate;
     system->lengths = from->lengths;
     system->structure = NULL;

@@ -24,7 +24,8 @@ int zd_space_tree_evaluate(const void *data, int want, double t, const double *p
 {
     const zd_space *self = data;
     const zd_space_tree *tree = zd_space_tree_of(self);
-    zd_space_frame frame = zd_space_frame_of(self, out->scratch);
+    zd_space_frame frame;
+    zd_space_frame_of(self, out->scratch, &frame);
     frame.inputs = out->inputs;
     if (want & ZD_MOVED) zd_space_frame_place(self, &frame, p);
     if (is_moving(self, want)) zd_space_tree_move(self, &frame, v);

@@ -7,7 +7,8 @@ static double norm(zd_vector3 a) { return sqrt(zd_inner3(a, a)); }
 
 int zd_space_tree_magnitudes(const void *data, double t, const double *p, const double *v, double *magnitude, double *scratch)
 {
-    const zd_space_frame frame = zd_space_frame_of(data, scratch);
+    zd_space_frame frame;
+    zd_space_frame_of(data, scratch, &frame);
     zd_space_frame_place(data, &frame, p);
     zd_space_frame_move(data, &frame, v);
     return zd_space_row_sizes(data, &frame, t, magnitude);
@@ -18,7 +19,8 @@ int zd_space_tree_force_magnitudes(const void *data, const double *inputs, doubl
 {
     const zd_space *self = data;
     const zd_space_tree *tree = zd_space_tree_of(self);
-    zd_space_frame frame = zd_space_frame_of(self, scratch);
+    zd_space_frame frame;
+    zd_space_frame_of(self, scratch, &frame);
     frame.inputs = inputs;
     zd_space_frame_place(self, &frame, p);
     zd_space_frame_move(self, &frame, v);

@@ -9,7 +9,8 @@ static void write_vector(zd_vector3 a, double *to) { to[0] = a.x, to[1] = a.y, t
 
 void zd_space_tree_poses(const zd_space *space, const double *p, const double *v, double *poses, double *twists, double *scratch)
 {
-    const zd_space_frame frame = zd_space_frame_of(space, scratch);
+    zd_space_frame frame;
+    zd_space_frame_of(space, scratch, &frame);
     zd_space_frame_place(space, &frame, p);
     if (v) zd_space_frame_move(space, &frame, v);
     for (int body = 1; body <= space->bodies; body++, poses += POSE) {

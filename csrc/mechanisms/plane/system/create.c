@@ -238,11 +238,9 @@ static int terms_of(const zd_plane_tables *tables, const zd_plane *self, int is_
 
 static void make_system(const zd_plane_tables *tables, const parts *from, int coordinates, zd_plane *self)
 {
-    zd_plane_frame_divide(self);
     self->system = (zd_system){
         .nq = coordinates, .nv = coordinates, .mh = self->elements.mh, .mn = self->elements.m - self->elements.mh,
         .provides = terms_of(tables, self, has_tree(tables)),
-        .scratch = (int)(self->frame_at[ZD_PLANE_OF_MEASURES] / sizeof(double)),
         .evaluate = zd_plane_evaluate,
         .data = self,
         .lengths = from->lengths,
@@ -254,9 +252,9 @@ static void make_system(const zd_plane_tables *tables, const parts *from, int co
         .magnitudes = has_tree(tables) ? zd_plane_magnitudes : NULL,
         .force_magnitudes = zd_plane_force_magnitudes,
     };
-    self->system.magnitudes_scratch = self->system.scratch;
     self->measures = zd_plane_measures(self, from->elements.measure);
-    self->measures.scratch = (int)(self->frame_at[ZD_PLANE_ARRAYS] / sizeof(double));
+    zd_plane_frame_divide(self);
+    self->system.magnitudes_scratch = self->system.scratch;
     self->elements.reading.evaluate = zd_plane_read;
     if (self->elements.reading.count) self->system.reading = &self->elements.reading;
 }

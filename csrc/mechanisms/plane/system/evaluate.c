@@ -87,7 +87,8 @@ static void write_packed(const zd_plane *self, const zd_plane_frame *frame, int 
 int zd_plane_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
 {
     const zd_plane *self = data;
-    zd_plane_frame frame = zd_plane_frame_of(self, out->scratch);
+    zd_plane_frame frame;
+    zd_plane_frame_of(self, out->scratch, &frame);
     frame.inputs = out->inputs;
     int left = terms_of_bodies(self, want);
     clear(self, want, out);

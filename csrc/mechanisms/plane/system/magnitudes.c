@@ -18,7 +18,8 @@ static int is_angular(int kind) { return kind == ZD_PLANE_ANGLE; }
 
 static zd_plane_frame placed(const zd_plane *self, const double *p, const double *v, double *scratch)
 {
-    const zd_plane_frame frame = zd_plane_frame_of(self, scratch);
+    zd_plane_frame frame;
+    zd_plane_frame_of(self, scratch, &frame);
     zd_plane_tree_turn(&self->tree, p, frame.sines);
     zd_plane_tree_place(&self->tree, p, frame.sines, frame.pose);
     zd_plane_tree_move(&self->tree, frame.pose, v, frame.twist);

@@ -28,12 +28,13 @@ static void move(const void *mechanism, const void *frame, const double *v)
     zd_plane_tree_move(&self->tree, at->pose, v, at->twist);
 }
 
-static void write_row(const void *mechanism, const void *frame, int index, double scale, double *row)
+static void write_row(const void *mechanism, const void *frame, int index, double scale, double *row, double *value)
 {
     const zd_plane *self = mechanism;
     const zd_plane_frame *at = frame;
     const zd_plane_quantity *quantity = self->quantity + index;
     const zd_plane_reading reading = zd_plane_quantity_read(quantity, at->pose);
+    if (value) *value = reading.value;
     zd_clear(self->tree.nv, row);
     zd_plane_tree_inward(&self->tree, at->pose, quantity->first, scale, reading.first, row);
     zd_plane_tree_inward(&self->tree, at->pose, quantity->second, scale, reading.second, row);

@@ -127,7 +127,6 @@ static void make_system(const zd_space_tables *tables, const parts *from)
     self->system = (zd_system){
         .nq = from->nq, .nv = from->nv, .mh = self->elements.mh, .mn = self->elements.m - self->elements.mh,
         .provides = ZD_A | ZD_M | ZD_BIAS | ZD_POTENTIAL | ZD_FORCE | zd_elements_terms(&tables->elements, &self->elements),
-        .scratch = zd_space_frame_size(self),
         .force_magnitudes = zd_space_force_magnitudes,
         .evaluate = zd_space_evaluate,
         .data = self,
@@ -142,6 +141,7 @@ static void make_system(const zd_space_tables *tables, const parts *from)
     };
     self->measures.count = tables->elements.measures;
     self->measures = zd_space_measures(self, from->elements.measure);
+    zd_space_frame_divide(self);
     self->elements.reading.evaluate = zd_space_read;
     if (self->elements.reading.count) self->system.reading = &self->elements.reading;
 }

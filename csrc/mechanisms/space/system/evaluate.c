@@ -27,7 +27,8 @@ int zd_space_evaluate(const void *data, int want, double t, const double *p, con
 {
     const zd_space *self = data;
     const int bodies = self->bodies;
-    zd_space_frame frame = zd_space_frame_of(self, out->scratch);
+    zd_space_frame frame;
+    zd_space_frame_of(self, out->scratch, &frame);
     frame.inputs = out->inputs;
     if (want & ZD_MOVED) {
         zd_space_frame_place(self, &frame, p);

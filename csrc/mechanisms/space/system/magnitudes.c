@@ -17,7 +17,8 @@ int zd_space_force_magnitudes(const void *data, const double *inputs, double t, 
                               double *scratch)
 {
     const zd_space *self = data;
-    zd_space_frame frame = zd_space_frame_of(self, scratch);
+    zd_space_frame frame;
+    zd_space_frame_of(self, scratch, &frame);
     frame.inputs = inputs;
     zd_space_frame_place(self, &frame, p);
     zd_space_frame_move(self, &frame, v);

@@ -17,12 +17,13 @@ static void place(const void *mechanism, const void *frame, const double *p) { z
 
 static void move(const void *mechanism, const void *frame, const double *v) { zd_space_frame_move(mechanism, frame, v); }
 
-static void write_row(const void *mechanism, const void *frame, int index, double scale, double *row)
+static void write_row(const void *mechanism, const void *frame, int index, double scale, double *row, double *value)
 {
     const zd_space *self = mechanism;
     const zd_space_frame *at = frame;
     const zd_space_quantity *quantity = self->quantity + index;
-    const zd_space_reading reading = zd_space_quantity_read(quantity, at->pose);
+    const zd_space_reading reading = (value ? zd_space_quantity_read : zd_space_quantity_wrenches)(quantity, at->pose);
+    if (value) *value = zd_space_quantity_counted(quantity, reading.value, at->angle);
     zd_clear(self->system.nv, row);
     if (self->carrying.act) {
         self->carrying.act(self, at, quantity, scale, &reading, row);
