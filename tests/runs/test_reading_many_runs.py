@@ -53,7 +53,7 @@ def test_programs_of_measures_are_the_tables(model, layout):
         values, size = runs[measure.name].reshape(3, -1), np.abs(runs.p).max() + np.abs(runs.v).max()
         np.testing.assert_allclose(values, core.measure(number, runs.t, runs.p, runs.v), rtol=SAME, atol=SAME * size)
         assert np.array_equal(values[0], values[2])
-        assert runs._by_program(number) is not None
+        assert runs._by_program(system._watching.view(measure.name)) is not None
 
 
 def test_runs_with_numbers_of_their_own_have_their_own_measures():

@@ -193,7 +193,7 @@ class ManyRuns:
         if name in self._places:
             return lambda: self.inputs[:, self._places[name]].copy()
         if place := self._ready[0].of._watching.view(name):
-            return partial(self._part, name, place, self._by_program(place.number) or partial(core.measure, place.number))
+            return self._by_program(place) or partial(self._part, name, place)
         found = self.system._columns_of.get(name, ())
         if len(found) == 1 and found[0][0] < 2:
             group, column = found[0]
@@ -203,21 +203,25 @@ class ManyRuns:
     def _by_each(self, name: Any) -> np.ndarray:
         return np.array([self._reading(i)(name) for i in range(len(self))])
 
-    def _part(self, name: Any, place: Place, values: Callable[[], np.ndarray | None]) -> np.ndarray:
+    def _part(self, name: Any, place: Place) -> np.ndarray:
         """The part of the values of a measure that has that name."""
-        if (found := values()) is None:
+        if (found := self._core.measure(place.number)) is None:
             return self._by_each(name)
         if place.form in (None, np.asarray):
             return place.pick(found)
         return np.concatenate([place.pick(each) for each in found[:, None]])      # an orientation follows the sample before
 
-    def _by_program(self, number: int) -> Callable[[], np.ndarray] | None:
+    def _by_program(self, place: Place) -> Callable[[], np.ndarray] | None:
         """Function that returns a measure by a program; None: it has none, or runs differ, or are not in closed form."""
         ready, core = self._ready[0], self._core
-        if not ready.source.has_closed_form or any(each.of is not ready.of for each in self._ready):
+        if place.form not in (None, np.asarray) or not ready.source.has_closed_form or (
+                any(each.of is not ready.of for each in self._ready)):
             return None
-        found = ready.of._program_of(ready.of._watching.core.measures[number].name)
-        return found and program_writer.reader(*found, core.t, core.p, core.v)
+        measure = ready.of._watching.core.measures[place.number]
+        if not (found := ready.of._program_of(measure.name)):
+            return None
+        read = program_writer.reader(*found, core.t, core.p, core.v)
+        return read if place[1:] == (None, None) and measure.size > 1 else lambda: place.pick(read())
 
     def _reading(self, i: int) -> Reading:
         run = self._core[i]         # which brings it to its present state

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -57,13 +58,13 @@ def expressions(written: Any) -> tuple[Any, Any]:
 
 def reader(program: tuple[Any, Any], numbers: Sequence[float], *states: np.ndarray) -> Callable[[], np.ndarray]:
     """Function that returns values (k, results) of `expressions` at the present t (k,), x (k, terms) and xdot (k, rates)."""
-    made, given, count = program[0], np.array([*numbers, 0.0]), len(states[0])
-    shape = count, made.results
-    memory = [doubles(each, each.size) for each in (given, *(np.ascontiguousarray(each, dtype=float) for each in states))]
+    shape = len(states[0]), program[0].results
+    arrays = [np.ascontiguousarray(each, dtype=float) for each in ([*numbers, 0.0], *states)]
+    given, *memory = (doubles(each, each.size) for each in arrays)
+    evaluate = partial(lib.zd_expressions_evaluate_all, program[0], given, shape[0], *memory)
 
     def read(keep: Any = program) -> np.ndarray:
-        out = np.empty(shape)
-        lib.zd_expressions_evaluate_all(made, memory[0], count, *memory[1:], ffi.from_buffer("double[]", out))
+        evaluate(ffi.from_buffer("double[]", out := np.empty(shape)))
         return out
 
     return read
