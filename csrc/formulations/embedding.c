@@ -247,16 +247,20 @@ int zd_embedding_place(zd_embedding *self, zd_point *point, double t, const doub
     return status;
 }
 
+/* Velocities (nv,) at unit rate of q_k */
+static const double *tangent_of(zd_embedding *self, int k)
+{
+    zd_clear(self->nv, self->delta);
+    self->delta[self->mh + k] = 1;
+    zd_lu_solve(self->nv, self->K, self->pivots, self->delta);
+    return self->delta;
+}
+
 int zd_embedding_tangents(zd_embedding *self, zd_point *point, int width, double *T)
 {
     int status = factor(self, point);
     if (status) return status;
-    for (int k = 0; k < self->k; k++) {
-        zd_clear(self->nv, self->delta);
-        self->delta[self->mh + k] = 1;
-        zd_lu_solve(self->nv, self->K, self->pivots, self->delta);
-        zd_point_rate(point, self->delta, T + k * width);       /* (18): Phi_p dp = 0 */
-    }
+    for (int k = 0; k < self->k; k++) zd_point_rate(point, tangent_of(self, k), T + k * width);     /* (18): Phi_p dp = 0 */
     return ZD_DONE;
 }
 
@@ -266,12 +270,8 @@ int zd_embedding_tangents(zd_embedding *self, zd_point *point, int width, double
 static double response(zd_embedding *self, const zd_point *point)
 {
     double largest = 0;
-    for (int k = 0; k < self->k; k++) {
-        zd_clear(self->nv, self->delta);
-        self->delta[self->mh + k] = 1;
-        zd_lu_solve(self->nv, self->K, self->pivots, self->delta);
-        largest = fmax(largest, zd_max_scaled(self->nv, self->delta, point->inverse_unit) / inverse_unit(self, point, k));
-    }
+    for (int k = 0; k < self->k; k++)
+        largest = fmax(largest, zd_max_scaled(self->nv, tangent_of(self, k), point->inverse_unit) / inverse_unit(self, point, k));
     return largest;
 }
 

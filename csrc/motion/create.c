@@ -53,7 +53,6 @@ void zd_motion_create(zd_motion *motion, zd_arena *arena, const zd_system *syste
         .memory_of_chosen = zd_span_since(arena, used),
     };
     motion->point = zd_point_create(arena, &motion->system, &motion->statistics);
-    motion->scratch_elsewhere = zd_arena_doubles(arena, system->scratch);
     zd_rank *rank = create_rank(motion, arena, independent, on_singular);
     if (motion->point) {
         motion->point->rank = rank;

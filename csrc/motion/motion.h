@@ -189,7 +189,6 @@ struct zd_motion {
     zd_statistics statistics;
     zd_tally *tally;        /* counters of the run */
     zd_point *point;        /* quantities at the current (t, p, v) */
-    double *scratch_elsewhere;      /* scratch memory of the system for evaluations elsewhere, each with ZD_MOVED */
     const zd_formulation *formulation;
     void *solver;           /* memory of the formulation */
     const zd_equations *equations;      /* chosen with the evaluation path */

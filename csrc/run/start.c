@@ -250,12 +250,13 @@ static int check(zd_run *run, const workspace *work, const double *p0, const dou
     return status;
 }
 
-static workspace lay_out(zd_arena *arena, const zd_motion *motion)
+static workspace lay_out(zd_arena *arena, const zd_run *run)
 {
+    const zd_motion *motion = &run->motion;
     return (workspace){
         .Psi = zd_arena_doubles(arena, zd_constraints(&motion->system)),
         .factor = zd_arena_doubles(arena, zd_size_of_M(&motion->system)),
-        .states = zd_arena_doubles(arena, 3 * (size_t)motion->rate.size),
+        .states = zd_arena_doubles(arena, zd_is_adaptive(&run->loop) ? 3 * (size_t)motion->rate.size : 0),
     };
 }
 
@@ -314,14 +315,14 @@ static void discard(zd_run *run, const void *data)
 size_t zd_run_start_memory(const zd_run *run)
 {
     zd_arena arena = {0};
-    lay_out(&arena, &run->motion);
+    lay_out(&arena, run);
     return arena.used;
 }
 
 int zd_run_start_elsewhere(zd_run *run, void *memory, const void *data, const double *p0, const double *v0)
 {
     zd_arena arena = {.base = memory};
-    const workspace work = lay_out(&arena, &run->motion);
+    const workspace work = lay_out(&arena, run);
     zd_point *point = run->motion.point;
     discard(run, data);
     zd_point_move(point, run->settings.t0, p0, v0);
@@ -333,9 +334,9 @@ int zd_run_start_elsewhere(zd_run *run, void *memory, const void *data, const do
 int zd_run_start(zd_run *run, int status, const double *p0, const double *v0)
 {
     zd_arena arena = {0};
-    lay_out(&arena, &run->motion);
+    lay_out(&arena, run);
     if (!zd_arena_allocate(&arena)) return ZD_NO_MEMORY;
-    const workspace work = lay_out(&arena, &run->motion);
+    const workspace work = lay_out(&arena, run);
     status = start(run, status, &work, p0, v0);
     zd_release(arena.base);
     return status;

@@ -59,6 +59,7 @@ zd_consistency zd_consistency_create(zd_arena *arena, zd_motion *motion, const z
         .direction = zd_arena_doubles(arena, nv + 1),
         .pdot = zd_arena_doubles(arena, nq),
         .p = zd_arena_doubles(arena, nq),
+        .scratch = zd_arena_doubles(arena, system->scratch),
         .Phi = zd_arena_doubles(arena, mh),
         .quotient = zd_arena_doubles(arena, mh),
         .central = zd_arena_doubles(arena, mh),
@@ -85,7 +86,7 @@ static int evaluate(zd_consistency *self, double e)
     const zd_point *point = self->motion->point;
     zd_terms terms = point->terms;
     terms.Phi = self->Phi;
-    terms.scratch = self->motion->scratch_elsewhere;
+    terms.scratch = self->scratch;
     for (int i = 0; i < self->motion->system.nq; i++) self->p[i] = point->p[i] + e * self->pdot[i];
     self->motion->statistics.evaluations++;
     double t = point->t + e * self->direction[self->motion->system.nv];

@@ -82,19 +82,17 @@ static void store_rows(const zd_point *point, double *C)
     else ZD_SIZED(keep_rows, point->rank->n, point->rank->m, point, C);
 }
 
-/* memory->C <- C at the start of the step, evaluated again in separate memory. */
+/* memory->C <- C at the start of the step, evaluated again; the point's scratch is then brought back to its state. */
 static int evaluate_beginning(zd_crossing *self)
 {
-    zd_motion *motion = self->motion;
-    const zd_system *system = &motion->system;
+    const zd_system *system = &self->motion->system;
     const zd_last *last = self->last;
-    zd_point there = *motion->point;
+    zd_point *point = self->motion->point, there = *point;
     there.terms.C = self->memory->previous;
-    there.terms.scratch = motion->scratch_elsewhere;
-    motion->statistics.evaluations++;
+    point->known &= ~ZD_MOVED;
     if (system->evaluate(system->data, ZD_C | ZD_MOVED, last->t, last->p, last->v, &there.terms)) return ZD_CALLBACK;
     store_rows(&there, self->memory->C);
-    return ZD_DONE;
+    return zd_point_need_missing(point, 0);
 }
 
 int zd_crossing_need_rows(zd_crossing *self)

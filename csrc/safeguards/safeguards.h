@@ -11,7 +11,7 @@ typedef struct zd_turning {
     zd_motion *motion;
     const zd_last *last;        /* the step */
     const double *vdot0, *pdot0, *pdot1;    /* (nv,), (nq,), (nq,): rates at its start; at its end */
-    double *A0;                 /* stored as the point's: A at the start */
+    double *A0, *scratch;       /* stored as the point's: A at the start; scratch memory of the system for it */
     double *before, *after;     /* (nq,): A vdot at both ends */
 } zd_turning;
 
@@ -54,6 +54,7 @@ typedef struct zd_consistency {
     double of_time;         /* s: characteristic scale of time, from zd_consistency_jacobian() */
     double *direction;      /* (nv + 1,): w, s */
     double *pdot, *p;       /* (nq,): A w; displaced coordinates */
+    double *scratch;        /* scratch memory of the system for these */
     double *Phi, *quotient, *central;   /* (mh,): displaced Phi; difference quotients; the central one */
     int row, column;        /* the wrong entry of C; column nv is Phi_t */
     double given, found;    /* its given value, and its value by differences */

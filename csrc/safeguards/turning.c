@@ -33,6 +33,7 @@ zd_turning zd_turning_create(zd_arena *arena, zd_motion *motion, const zd_last *
         .pdot0 = pdot0,
         .pdot1 = pdot1,
         .A0 = zd_arena_doubles(arena, size_of_A(system)),
+        .scratch = zd_arena_doubles(arena, system->scratch),
         .before = zd_arena_doubles(arena, system->nq),
         .after = zd_arena_doubles(arena, system->nq),
     };
@@ -44,7 +45,7 @@ int zd_turning_evaluate(zd_turning *self)
     const zd_system *system = &self->motion->system;
     zd_point *point = self->motion->point, there = *point;
     there.terms.A = self->A0;
-    there.terms.scratch = self->motion->scratch_elsewhere;
+    there.terms.scratch = self->scratch;
     const int want = ZD_MOVED | (zd_brings_times_A(system) ? 0 : ZD_A);
     int status = zd_point_need_times_A(point, 0);
     if (status) return status;
