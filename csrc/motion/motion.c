@@ -110,6 +110,17 @@ void zd_motion_extra_rates(const zd_motion *motion, double *ydot)
     }
 }
 
+/* Power put in besides V: by forces, and by moving constraints, whose force -C^T lambda does work because C v = -Phi_t. */
+static double find_power(const zd_motion *motion)
+{
+    const zd_point *point = motion->point;
+    double sum = point->terms.power ? *point->terms.power : 0;
+    if (point->terms.Phi_t) zd_rank_find_multipliers(point);
+    if (point->terms.Phi_t)
+        for (int k = 0; k < zd_constraints(point->system); k++) sum += point->lambda[k] * point->terms.Phi_t[k];
+    return sum;
+}
+
 int zd_motion_rate(void *context, double t, const double *y, double *ydot)
 {
     zd_motion *motion = context;
@@ -120,7 +131,7 @@ int zd_motion_rate(void *context, double t, const double *y, double *ydot)
     if (!status) status = motion->formulation->rate(motion->solver, motion->point, ydot);
     if (status) return status;
     if (motion->corrections_size) zd_motion_extra_rates(motion, ydot);
-    if (motion->balance.input) ydot[motion->rate.size - 1] = zd_motion_power(motion);
+    if (motion->balance.input) ydot[motion->rate.size - 1] = find_power(motion);
     return ZD_DONE;
 }
 
@@ -199,17 +210,6 @@ int zd_has_energy(const zd_system *system)
 int zd_has_input(const zd_system *system)
 {
     return zd_has_energy(system) && (system->provides & (ZD_POWER | ZD_PHI_T));
-}
-
-/* Power put in besides V: by forces, and by moving constraints, whose force -C^T lambda does work because C v = -Phi_t. */
-double zd_motion_power(const zd_motion *motion)
-{
-    const zd_point *point = motion->point;
-    double sum = point->terms.power ? *point->terms.power : 0;
-    if (point->terms.Phi_t) zd_rank_find_multipliers(point);
-    if (point->terms.Phi_t)
-        for (int k = 0; k < zd_constraints(point->system); k++) sum += point->lambda[k] * point->terms.Phi_t[k];
-    return sum;
 }
 
 int zd_motion_energy_violation(zd_motion *motion, double *violation, double *kinetic)

@@ -305,7 +305,6 @@ static inline int zd_is_one_of(int64_t every, int64_t step) { return every == 1 
 int zd_has_energy(const zd_system *system);
 int zd_has_input(const zd_system *system);          /* true if power is put in besides V; its integral is then part of the state */
 static inline double zd_motion_input(const zd_motion *motion) { return motion->balance.input ? *motion->balance.input : 0; }   /* J */
-double zd_motion_power(const zd_motion *motion);    /* W: at the point, whose acceleration must be known */
 int zd_motion_energy_violation(zd_motion *motion, double *violation, double *kinetic);     /* (28) */
 int zd_motion_start_energy(zd_motion *motion);      /* E0 of (28), from the point */
 

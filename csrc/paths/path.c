@@ -114,7 +114,8 @@ void zd_path_bind(zd_motion *motion)
     motion->rate.vdot = motion->path.is_plain ? motion->point->vdot : NULL;
 }
 
-void zd_path_take(zd_motion *motion, int i)
+/* Sets the path of this elimination order, negative: by matrices, and all that follows from it: functions, rate, ranges of the pivots. */
+static void set_order(zd_motion *motion, int i)
 {
     zd_path *path = &motion->path;
     if (path->order == i) return;
@@ -133,7 +134,7 @@ void zd_path_take(zd_motion *motion, int i)
 int zd_closed_form_leave(zd_motion *motion)
 {
     const int was_taken = motion->path.order >= 0;
-    zd_path_take(motion, -1);
+    set_order(motion, -1);
     return was_taken;
 }
 
@@ -175,7 +176,7 @@ static void begin(zd_motion *motion)
 static int takes(zd_motion *motion, int order, double enough)
 {
     if (!(*scale_of(motion, order) > 0)) measure(motion, order);
-    zd_path_take(motion, order);
+    set_order(motion, order);
     if (zd_motion_accelerate(motion) || !(smallest_pivot(motion) >= enough)) return 0;
     begin(motion);
     return 1;
@@ -204,7 +205,7 @@ int zd_closed_form_choose(zd_motion *motion)
     if (all_count && path->order == 0 && (motion->point->known & ZD_ACCELERATED) && path->smallest >= ZD_LARGE_PIVOT) begin(motion);
     else if (!all_count || !(path->embeds ? find_embedding(motion) : find_order(motion, ZD_LARGE_PIVOT) ||
                              find_order(motion, ZD_SUFFICIENT_PIVOT)))
-        zd_path_take(motion, -1);
+        set_order(motion, -1);
     return path->order >= 0;
 }
 

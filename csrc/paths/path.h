@@ -68,8 +68,6 @@ void zd_closed_form_create(zd_motion *motion, zd_arena *arena, enum zd_unit unit
 /* Chooses the evaluation path of a step that begins at the point; true: the closed-form path. */
 int zd_closed_form_choose(zd_motion *motion);
 
-/* Takes the path with this elimination order, negative: by matrices, and all that follows from it: functions, rate, ranges of the pivots. */
-void zd_path_take(zd_motion *motion, int order);
 /* Sets the functions and addresses that follow from path and variables, of a state that was restored. */
 void zd_path_bind(zd_motion *motion);
 /* Change to the matrix path; true: from the closed-form path. For a part of a step; for a step from its start, with the counters of the

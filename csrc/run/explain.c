@@ -235,45 +235,6 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
     }
 }
 
-/* True if an iteration has failed and the Jacobian is found wrong, at the present point or at the start of the step. */
-static int is_for_jacobians(zd_run *run, int status)
-{
-    zd_consistency *consistency = &run->safeguards.consistency;
-    const zd_last *last = &run->stepper.last;
-    if (status != ZD_NO_CONVERGENCE && status != ZD_NO_STEP && status != ZD_NO_EMBEDDING) return 0;
-    if (!consistency->compares || last->h == 0) return 0;
-    if (zd_consistency_jacobian(consistency, run->loop.step) == ZD_NOT_JACOBIAN) return 1;
-    zd_point_move(run->motion.point, last->t, last->p, last->v);
-    return zd_consistency_jacobian(consistency, run->loop.step) == ZD_NOT_JACOBIAN;
-}
-
-/* The status to report, at *t: terms that are not finite often cause a failed factorization first; then the term is reported. */
-static int cause_of(zd_run *run, int status, double *t)
-{
-    zd_point *point = run->motion.point;
-    *t = point->t;
-    if (status == ZD_CALLBACK || status == ZD_BAD_START || status == ZD_UNREACHABLE) return status;
-    int finite = zd_point_is_finite(point);
-    int term = zd_run_not_finite(run, finite ? status : ZD_NOT_FINITE, t);
-    if (term) point->failed_index = term;
-    if (!term && finite && is_for_jacobians(run, status)) return ZD_NOT_JACOBIAN;
-    return term ? ZD_BAD_TERM : finite ? status : ZD_NOT_FINITE;
-}
-
-int zd_explain(zd_run *run, int status)
-{
-    char what[ZD_MESSAGE - 64];
-    if (run->outcome.message[0]) return status;
-    double t;
-    status = cause_of(run, status, &t);
-    describe(run, status, what, sizeof what);
-    const size_t said = zd_say_where(run->outcome.message, sizeof run->outcome.message, t, run->loop.step, run->loop.steps);
-    snprintf(run->outcome.message + said, sizeof run->outcome.message - said, "%s", what);
-    if (run->loop.parts && status != ZD_BIFURCATION && strlen(run->outcome.message) < sizeof run->outcome.message - 48)
-        strcat(run->outcome.message, ", also when it is made in parts");
-    return status;
-}
-
 /* Search for the non-finite term after a failure. Terms are not checked during a run, at no cost to it: after a failure the last step is
  * repeated with checks of every evaluation.
  */
@@ -321,11 +282,53 @@ static int watch_step(zd_run *run, double *t)
     return self.term;
 }
 
-int zd_run_not_finite(zd_run *run, int status, double *t)
+/* Bit of the non-finite term that caused a failure, and *t <- its time; 0: there is none. */
+static int find_not_finite(zd_run *run, int status, double *t)
 {
     const zd_point *point = run->motion.point;
     const zd_system *system = point->system;
     *t = point->t;
     int term = is_moderate(system, point->p, point->v) ? zd_first_not_finite(system, point->known, &point->terms) : 0;
     return term || status != ZD_NOT_FINITE || run->stepper.last.h == 0 ? term : watch_step(run, t);
+}
+
+/* ---- the sentence ---- */
+
+/* True if an iteration has failed and the Jacobian is found wrong, at the present point or at the start of the step. */
+static int is_for_jacobians(zd_run *run, int status)
+{
+    zd_consistency *consistency = &run->safeguards.consistency;
+    const zd_last *last = &run->stepper.last;
+    if (status != ZD_NO_CONVERGENCE && status != ZD_NO_STEP && status != ZD_NO_EMBEDDING) return 0;
+    if (!consistency->compares || last->h == 0) return 0;
+    if (zd_consistency_jacobian(consistency, run->loop.step) == ZD_NOT_JACOBIAN) return 1;
+    zd_point_move(run->motion.point, last->t, last->p, last->v);
+    return zd_consistency_jacobian(consistency, run->loop.step) == ZD_NOT_JACOBIAN;
+}
+
+/* The status to report, at *t: terms that are not finite often cause a failed factorization first; then the term is reported. */
+static int cause_of(zd_run *run, int status, double *t)
+{
+    zd_point *point = run->motion.point;
+    *t = point->t;
+    if (status == ZD_CALLBACK || status == ZD_BAD_START || status == ZD_UNREACHABLE) return status;
+    int finite = zd_point_is_finite(point);
+    int term = find_not_finite(run, finite ? status : ZD_NOT_FINITE, t);
+    if (term) point->failed_index = term;
+    if (!term && finite && is_for_jacobians(run, status)) return ZD_NOT_JACOBIAN;
+    return term ? ZD_BAD_TERM : finite ? status : ZD_NOT_FINITE;
+}
+
+int zd_explain(zd_run *run, int status)
+{
+    char what[ZD_MESSAGE - 64];
+    if (run->outcome.message[0]) return status;
+    double t;
+    status = cause_of(run, status, &t);
+    describe(run, status, what, sizeof what);
+    const size_t said = zd_say_where(run->outcome.message, sizeof run->outcome.message, t, run->loop.step, run->loop.steps);
+    snprintf(run->outcome.message + said, sizeof run->outcome.message - said, "%s", what);
+    if (run->loop.parts && status != ZD_BIFURCATION && strlen(run->outcome.message) < sizeof run->outcome.message - 48)
+        strcat(run->outcome.message, ", also when it is made in parts");
+    return status;
 }

@@ -120,9 +120,6 @@ void zd_say_event(char *to, size_t size, int event);    /* message of a run ende
 
 const char *zd_sentence(int status);
 
-/* Bit of the non-finite term that caused a failure, and *t <- its time; 0: there is none. */
-int zd_run_not_finite(zd_run *run, int status, double *t);
-
 /* States between the samples of a finished run that saved every step. */
 
 typedef struct zd_resample {

@@ -85,7 +85,8 @@ static int measure_is_right(const tables *of, int i, zd_complaint to)
            zd_complain(to, "measure %s: the entries that it measures must exist", measure->name);
 }
 
-int zd_elements_are_right(const zd_elements *elements, int joints, int quantities, zd_complaint to)
+/* True if relations, generalized forces and measures refer to existing marker quantities and joints; otherwise writes which one does not. */
+static int elements_are_right(const zd_elements *elements, int joints, int quantities, zd_complaint to)
 {
     const tables of = {elements, joints, quantities};
     const struct {
@@ -133,5 +134,5 @@ int zd_mechanism_is_right(const void *of, int bodies, int arrays, const zd_check
     for (int k = 0; k < arrays; k++)
         for (int i = 0; i < checked[k].count; i++)
             if (!checked[k].is_right(of, i, to)) return 0;
-    return zd_elements_are_right(elements, joints, quantities, to);
+    return elements_are_right(elements, joints, quantities, to);
 }

@@ -35,6 +35,3 @@ typedef struct zd_checked {
 /* Checks all arrays of the tables `of` in their order, then the elements. */
 int zd_mechanism_is_right(const void *of, int bodies, int arrays, const zd_checked *checked, const zd_elements *elements, int joints,
                           int quantities, zd_complaint to);
-
-/* True if relations, generalized forces and measures refer to existing marker quantities and joints; otherwise writes which one does not. */
-int zd_elements_are_right(const zd_elements *elements, int joints, int quantities, zd_complaint to);

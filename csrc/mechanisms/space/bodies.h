@@ -55,11 +55,9 @@ double zd_space_quantity_counted(const zd_space_quantity *quantity, double value
 /* The angle plus the multiple of 2 pi that is nearest to `near`. */
 double zd_with_turns(double angle, double near);
 double zd_space_quantity_rate(const zd_space_quantity *quantity, const zd_space_pose *pose, const zd_space_twist *twist);
-/* Derivative of the rate by time, without the part that is linear in the bodies' accelerations. */
-double zd_space_quantity_bias(const zd_space_quantity *quantity, const zd_space_pose *pose, const zd_space_twist *twist);
-/* The same at vdot = 0, where bodies have the accelerations `bias`; NULL: zero. */
-double zd_space_quantity_bias_with(const zd_space_quantity *quantity, const zd_space_pose *pose, const zd_space_twist *twist,
-                                const zd_space_twist *bias);
+/* Derivative of the rate with respect to time at vdot = 0, where bodies have the accelerations `bias`; NULL: zero. */
+double zd_space_quantity_bias(const zd_space_quantity *quantity, const zd_space_pose *pose, const zd_space_twist *twist,
+                              const zd_space_twist *bias);
 /* True if a force along it acts on both bodies with opposite force and opposite torque about any point. */
 int zd_space_quantity_is_mutual(const zd_space_quantity *quantity);
 /* C of enum zd_space_quantity_kind. */

@@ -309,7 +309,8 @@ double zd_space_quantity_rate(const zd_space_quantity *quantity, const zd_space_
 
 static double bias_of_glide(moving a, moving Q) { return zd_inner3(a.rate, Q.rate) + zd_inner3(a.value, Q.second); }
 
-double zd_space_quantity_bias(const zd_space_quantity *quantity, const zd_space_pose *pose, const zd_space_twist *twist)
+/* Bias where the bodies' accelerations are zero. */
+static double own_bias(const zd_space_quantity *quantity, const zd_space_pose *pose, const zd_space_twist *twist)
 {
     const zd_space_pose *first = pose + quantity->first, *second = pose + quantity->second;
     const zd_space_twist *first_twist = twist + quantity->first, *second_twist = twist + quantity->second;
@@ -337,9 +338,9 @@ double zd_space_quantity_bias(const zd_space_quantity *quantity, const zd_space_
 #undef APART
 }
 
-double zd_space_quantity_bias_with(const zd_space_quantity *quantity, const zd_space_pose *pose, const zd_space_twist *twist,
-                                const zd_space_twist *bias)
+double zd_space_quantity_bias(const zd_space_quantity *quantity, const zd_space_pose *pose, const zd_space_twist *twist,
+                              const zd_space_twist *bias)
 {
-    const double own = zd_space_quantity_bias(quantity, pose, twist);
+    const double own = own_bias(quantity, pose, twist);
     return bias ? own + zd_space_quantity_rate(quantity, pose, bias) : own;
 }

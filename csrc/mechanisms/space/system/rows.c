@@ -24,7 +24,7 @@ double zd_space_bias(const void *mechanism, const void *frame, int quantity)
 {
     const zd_space *self = mechanism;
     const zd_space_frame *at = frame;
-    return zd_space_quantity_bias_with(self->quantity + quantity, at->pose, at->twist, at->bias);
+    return zd_space_quantity_bias(self->quantity + quantity, at->pose, at->twist, at->bias);
 }
 
 int zd_space_rows_write(const zd_space *self, const zd_space_frame *frame, int want, double t, const zd_terms *out)
