@@ -37,7 +37,7 @@ ZD_ON_UNIT ZD_THREADED static void ZD_NAMED(run)(const zd_instruction *next, zd_
         &&plus, &&minus, &&times, &&over, &&negative, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other,
         &&other, &&other, &&other, &&root, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other,
         &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other, &&other,
-        &&other, &&other, &&other, &&times_plus, &&times_minus, &&minus_times, &&sines, &&end};
+        &&other, &&other, &&other, &&other, &&times_plus, &&times_minus, &&minus_times, &&sines, &&end};
     ZD_NEXT;
 plus: ZD_VALUE(ZD_A + ZD_B);
 minus: ZD_VALUE(ZD_A - ZD_B);

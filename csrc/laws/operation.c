@@ -9,7 +9,7 @@
 #if defined(__GLIBC__) && defined(__x86_64__) && defined(__PIC__) && !defined(__PIE__)
 /* In shared libraries: the functions as every glibc has them since 2012, of the same bits, so that wheels do not require a newer one. */
 __asm__(".symver exp, exp@GLIBC_2.2.5\n.symver log, log@GLIBC_2.2.5\n.symver log2, log2@GLIBC_2.2.5\n"
-        ".symver pow, pow@GLIBC_2.2.5\n.symver hypot, hypot@GLIBC_2.2.5\n.symver lgamma, lgamma@GLIBC_2.2.5");
+        ".symver pow, pow@GLIBC_2.2.5\n.symver hypot, hypot@GLIBC_2.2.5\n.symver lgamma, lgamma@GLIBC_2.2.5\n.symver fmod, fmod@GLIBC_2.2.5");
 #endif
 
 static double function_value(enum zd_code code, double a, double b)
@@ -43,7 +43,8 @@ static double function_value(enum zd_code code, double a, double b)
     case ZD_CODE_LOG2: return log2(a);
     case ZD_CODE_LOG10: return log10(a);
     case ZD_CODE_GAMMA: return tgamma(a);
-    default: return lgamma(a);
+    case ZD_CODE_LOGGAMMA: return lgamma(a);
+    default: return fmod(a, b);
     }
 }
 

@@ -11,7 +11,7 @@ from scipy.special import ellipk
 
 import zerodrift as zd
 from every_model import IN_SPACE, MECHANISMS
-from support import refused
+from support import called, refused
 from zerodrift._private import gateway
 from zerodrift._private.gateway.mechanisms.blocks import SECTIONS, VERSION, BlockCore
 
@@ -94,7 +94,7 @@ def test_a_parameter_of_the_mechanism_is_a_number_of_its_programs():
 
 def test_callables_and_unknown_functions_are_refused_by_name():
     with refused("not-portable", "'drive'"):
-        zd.block(linkage(torque=lambda t: t))
+        zd.block(linkage(torque=called(lambda t: t)))
     with refused("wrong-name"):
         zd.block(linkage(torque=1.0).system("absolute"), outputs=["pin.y"])
     with refused("wrong-name", "inputs"):

@@ -9,7 +9,7 @@ import pytest
 
 import zerodrift as zd
 from core_objects import AT_FIXED_PLACES, CC, STRICT, needs_compiler, objects_of, shared_folder
-from support import refused
+from support import called, refused
 
 ALLOCATED = """
 #include <stdio.h>
@@ -98,8 +98,8 @@ def test_the_folder_has_what_the_mechanism_needs_and_no_more(tmp_path):
 
 def test_a_mechanism_that_is_refused_leaves_no_folder(tmp_path):
     m = zd.models.four_bar()
-    m.torque("drive", m.bodies[0], value=lambda t: 1.0 + t)
-    with refused("not-portable", "callable"):
+    m.torque("drive", m.bodies[0], value=called(lambda t: 1.0 + t))
+    with refused("not-portable", "drive"):
         zd.c_source(m, tmp_path / "bar", step=1e-2)
     assert not list(tmp_path.iterdir())
 

@@ -15,7 +15,7 @@ from mechanisms.every_element import hinged, machinery, vehicles
 from mechanisms.every_joint_by_row import by_row
 from mechanisms.known import four_bar
 from mechanisms.random_mechanisms import Maker
-from support import refused
+from support import called, refused
 from tolerances import EPS
 from zerodrift._private.gateway.mechanisms.plane import element_kinds, joint_kinds
 
@@ -138,15 +138,15 @@ def test_own_parameters_are_numbers_too():
 
 @pytest.mark.parametrize("layout", LAYOUTS)
 @pytest.mark.parametrize(("add", "named"), [
-    (lambda m: m.motor("drive", m["pin"], angle=np.sin), "angle of motor 'drive'"),
-    (lambda m: m.torque("gust", m["link"], value=lambda t: t), "value of torque 'gust'"),
-    (lambda m: m.constraint("rope", lambda x: x, of={"x": "link.position.x"}), "constraint 'rope'"),
-    (lambda m: m.cam("cam", m["pin"], m["link"].position.x, profile=np.sin), "cam 'cam'"),
+    (lambda m: m.motor("drive", m["pin"], angle=called(lambda t: np.sin(t))), "angle of motor 'drive'"),
+    (lambda m: m.torque("gust", m["link"], value=called(lambda t: t)), "value of torque 'gust'"),
+    (lambda m: m.constraint("rope", called(lambda x: x), of={"x": "link.position.x"}), "constraint 'rope'"),
+    (lambda m: m.cam("cam", m["pin"], m["link"].position.x, profile=called(lambda x: np.sin(x))), "cam 'cam'"),
 ])
 def test_callables_are_refused_by_the_name_of_their_element(layout, add, named):
     m = swinging()
     add(m)
-    with refused("not-portable", f"{named} is a callable, of which no equations can be written"):
+    with refused("not-portable", f"{named} must be a function that can be recorded"):
         m.system(layout, compiled=True)
     with refused("wrong-type", "compiled.*'yes'"):
         m.system(layout, compiled="yes")

@@ -13,7 +13,7 @@ from every_model import IN_SPACE
 from mechanisms.plain_space import Plain
 from mechanisms.test_compiled import TERM_ROUNDING, differences
 from mechanisms.test_files_of_space import everything
-from support import refused
+from support import called, refused
 from zerodrift._private.gateway.mechanisms.space import joint_kinds
 from zerodrift.mechanisms.elements.immutable import amend
 from zerodrift.mechanisms.equations import generated_code
@@ -128,7 +128,7 @@ def test_numbers_stay_numbers_and_what_is_sent_is_the_same():
 @pytest.mark.parametrize("layout", ["joint", "absolute"])
 def test_callables_are_refused_by_the_name_of_their_element(layout):
     m = driven()
-    m.torque("gust", m["wheel"], value=lambda t: t, axis=(0, 1, 0))
+    m.torque("gust", m["wheel"], value=called(lambda t: t), axis=(0, 1, 0))
     with refused("not-portable", "'gust'"):
         m.system(layout, compiled=True)
 

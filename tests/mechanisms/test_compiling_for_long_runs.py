@@ -8,6 +8,7 @@ import zerodrift as zd
 from caching import cache_folder  # noqa: F401  (a fixture)
 from mechanisms.known import four_bar
 from native_systems import needs_compiler
+from support import called
 from zerodrift.mechanisms.reports import cost, in_words
 
 STEPS = in_words.FEWEST_STEPS
@@ -52,9 +53,9 @@ def refusals():
     yield "refused", four_bar().system(compiled=False), {}, "saves about"
     yield "by matrices", four_bar(), {"closed_form": False}, "closed_form=False"
     yield "implicit", four_bar(), {"integrator": "trapezoidal"}, "'trapezoidal' has none"
-    called = four_bar()
-    called.torque("push", "crank", value=lambda t: 0.1)
-    yield "called", called, {}, "value of torque 'push' is a callable"
+    pushed = four_bar()
+    pushed.torque("push", "crank", value=called(lambda t: 0.1))
+    yield "called", pushed, {}, "value of torque 'push' must be a function that can be recorded"
 
 
 @pytest.mark.parametrize(("made", "changed", "reason"), [each[1:] for each in refusals()], ids=[each[0] for each in refusals()])

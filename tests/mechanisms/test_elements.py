@@ -6,7 +6,7 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 import zerodrift as zd
-from support import refused
+from support import called, refused
 from zerodrift.mechanisms.building.periodic_spline import PeriodicSpline
 from zerodrift.systems.autodiff import Jet
 
@@ -297,8 +297,8 @@ def test_what_a_callable_returns_is_a_number():
         zd.simulate(m, 1.0, step=0.1)
 
 
-@pytest.mark.parametrize("motion", [lambda t: np.interp(t, [0, 1], [0, 1]), lambda t: np.floor(t) + t, lambda t: t % 2,
-                                    lambda t: np.sinc(t)])
+@pytest.mark.parametrize("motion", [lambda t: np.interp(t, [0, 1], [0, 1]), called(lambda t: np.floor(t) + t),
+                                    called(lambda t: t % 2), lambda t: np.sinc(t)])
 def test_prescribed_motions_have_derivatives(motion):
     m, _, joints = wheels(1)
     m.motor("drive", joints[0], angle=motion)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
+import support
 import zerodrift as zd
 from zerodrift._private.gateway.mechanisms.element_tables import law_sizes
 from zerodrift.errors import ZerodriftError
@@ -153,7 +154,7 @@ def test_what_c_has_not_is_left_to_python(monkeypatch):
         _lambdacode = _pythoncode
 
     m = scene(motion, 2)
-    m.force("odd", "other", along=(1, 0), value=lambda t: np.cos(t))
+    m.force("odd", "other", along=(1, 0), value=support.called(lambda t: np.cos(t)))
     system, asked = m.system(), called(monkeypatch)
     zd.simulate(system, 0.1, step=0.01)
     assert set(asked) == {1}

@@ -11,6 +11,7 @@ from sympy.codegen import cfunctions as c
 import zerodrift as zd
 from support import refused
 from zerodrift.symbolics.graph import sympy_functions
+from zerodrift.symbolics.graph.plain_functions import NAMED
 
 X, DX, Y, DY = sp.symbols("x dx y dy")
 RANDOM = np.random.default_rng(1)
@@ -21,8 +22,9 @@ ARGUMENTS = [0.0, 1.0, -1.0, 0.5, -0.5, 1.5, -1.5, 2.0, -2.0, -3.0, 1e-10, -1e-1
 PAIRS = [(0.0, 1.0), (0.0, -1.0), (1.0, 0.0), (-1.0, 0.0), (-8.0, 0.7), (-8.0, 3.0), (-8.0, -3.0), (0.0, 0.5), (0.0, -0.5),
          (2.0, -2.0), (2.0, 2.0), (1000.0, 200.0), (-1000.0, 201.0), (-7.5, 2.0), (7.5, -2.0), (1e-200, 1e-200), (1e200, 1e200),
          *map(tuple, RANDOM.uniform(-4, 4, (20, 2)))]
-ONE = [f for f in (*sympy_functions.TOTAL, *sympy_functions.PARTIAL, *sympy_functions.REWRITTEN)
-       if f not in (sp.atan2, sp.Mod, sp.erf2, sp.adjoint, sp.transpose, sp.exp_polar, c.hypot, c.fma)]
+OWN = [getattr(sp, name, None) or getattr(c, name) for name in NAMED if name not in ("zd_spline_at", "fmod")]
+ONE = [f for f in (*OWN, *sympy_functions.WITH_GAMMA, *sympy_functions.REWRITTEN)
+       if f not in (sp.atan2, sp.Pow, sp.Mod, sp.erf2, sp.adjoint, sp.transpose, sp.exp_polar, c.hypot, c.fma)]
 
 
 def fused(x, y):

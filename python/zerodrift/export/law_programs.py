@@ -27,9 +27,7 @@ class Programs:
 
     def add(self, row: function_calls.Call, k: int) -> None:
         """Add the program of a user function of k marker quantities."""
-        if not row.law.has_nodes:
-            raise WrongValue(f"{row.law.what} is a callable, which a block cannot hold: give a number, an expression of SymPy "
-                             "or zd.table(x, y)", "not-portable")
+        row.law.check_written()
         try:
             program, numbers, tables = function_programs.program_of(row, k)
         except Unwritten as reason:

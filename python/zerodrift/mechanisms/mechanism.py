@@ -20,6 +20,7 @@ from .building.joint_verbs import JointVerbs
 from .building.plane_to_space import lift
 from .building.start_verbs import StartVerbs
 from .elements.drawing import Drawing
+from .elements.user_functions import Law
 from .files.to_json import described, text
 from .reports.summary import headline, report
 from .system import LAYOUTS, MechanismSystem
@@ -285,5 +286,8 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
 
     def _drawing(self) -> Drawing:
         gravity = np.array(checks.vector("gravity", self.gravity, self.dimension))
+        for element in self._elements.values():
+            if isinstance(law := getattr(element, "law", None), Law):
+                law.record(self.parameters)     # anew where what it reads from outside has changed
         return Drawing(self.name, gravity, dict(self.parameters), dict(self._elements), dict(self._held), dict(self._wished),
                        self._is_balanced)

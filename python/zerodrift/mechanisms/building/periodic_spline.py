@@ -8,6 +8,7 @@ import numpy as np
 
 from ..._private import checks
 from ...errors import WrongValue
+from ...symbolics.graph.plain_functions import FLOOR
 from ...systems import autodiff
 
 PERIOD = 2 * np.pi
@@ -83,7 +84,7 @@ class PeriodicSpline:
     def written(self, equations: Any, angle: Any) -> Any:
         """Node of the value, from the node of an angle: the piece's numbers are chosen, so that one polynomial is computed."""
         graph, first = equations.graph, float(self.angles[0])
-        turns = graph.call(equations.functions.floor, graph.sum([(angle, 1 / PERIOD), (graph.one, -first / PERIOD)]))
+        turns = graph.call(FLOOR, graph.sum([(angle, 1 / PERIOD), (graph.one, -first / PERIOD)]))
         within = graph.sum([(angle, 1), (turns, -PERIOD)])
         conditions = [graph.comparison("<", within, graph.number(float(end))) for end in self.angles[1:]]
 

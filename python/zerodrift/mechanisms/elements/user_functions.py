@@ -12,6 +12,8 @@ import numpy as np
 
 from ..._private import checks
 from ...errors import WrongType, WrongValue
+from ...laws import recording
+from ...laws.formula import Formula
 from ...laws.table import Table, recognised
 from ...symbolics.graph.smoothness import is_plain_expression
 from ...systems import autodiff
@@ -32,13 +34,20 @@ class Law:
         Reactions and accelerations by its own names; `value` takes them after the measures.
     constant : float or None
         Its value where it is a plain number.
+    formula : Formula or None
+        What a function computes, where it could be recorded.
+    why_called : str
+        Reason why a function was not recorded, and is called instead; empty for others.
     """
 
     input: str | None = None        # name of the input that takes its place in a run
     is_speed = False
     reactions: Mapping[str, str] = MappingProxyType({})
+    formula: Formula | None = None
+    why_called = ""
 
-    def __init__(self, what: str, given: Any, *, of: Mapping[str, Any] | None = None, parameters: Iterable[str] = ()) -> None:
+    def __init__(self, what: str, given: Any, *, of: Mapping[str, Any] | None = None,
+                 parameters: Mapping[str, float] = MappingProxyType({})) -> None:
         self.what, self.constant, self.expression = what, None, None
         self._function: Any = None
         given = recognised(given)
@@ -46,6 +55,7 @@ class Law:
         if callable(given):
             self._names = _wanted(what, given, ["t", *parameters, *bound])
             self._function, self._bound = given, {name: bound[name] for name in self._names if name in bound}
+            self.record(parameters)
         elif hasattr(given, "free_symbols"):
             self._read_expression(given, bound, list(parameters))
         elif isinstance(given, tuple | list | dict) or np.ndim(given):
@@ -55,6 +65,11 @@ class Law:
             self.constant, self._names, self._bound = checks.number(what, given), [], {}
         self.measures = tuple(self._bound.values())
         self.depends_on_time = "t" in self._names
+
+    def record(self, parameters: Mapping[str, float]) -> None:
+        """Record a function; numbers that it reads from outside count as they are now."""
+        if self._function is not None and not hasattr(self._function, "written") and not self.why_called:
+            self.formula, self.why_called = recording.record(self._function, self._names, parameters, self.formula)
 
     def _read_expression(self, expression: Any, bound: dict[str, str], parameters: list[str]) -> None:
         """Read an expression of t, parameters and measures; names in `of` stand for their measures."""
@@ -89,6 +104,8 @@ class Law:
     @functools.cached_property
     def _call(self) -> Callable[..., Any]:
         """Function of `names`, in their order."""
+        if self.formula is not None:
+            return lambda *values: self.formula.value(dict(zip(self._names, values, strict=True)))
         if self.expression is None:
             return lambda *values: self._function(**dict(zip(self._names, values, strict=True)))
         by_name = {str(symbol): symbol for symbol in self.expression.free_symbols}
@@ -144,6 +161,8 @@ class Law:
         """True if it depends on no measure, or is a polynomial of measures and of sines and cosines of them."""
         if not self.measures:
             return True
+        if self.formula is not None:
+            return self.formula.is_plain(set(self._picked))
         return self.expression is not None and is_plain_expression(self.expression, set(self._picked))
 
     @property
@@ -164,18 +183,20 @@ class Law:
     def check_written(self) -> None:
         """Check that code can be generated."""
         if not self.has_nodes:
-            raise WrongValue(f"{self.what} is a callable, of which no equations can be written: give a SymPy expression in "
-                             "its place", "not-portable")
+            raise WrongValue(f"{self.what} must be a function that can be recorded, for equations to be written of it, and it "
+                             f"{self.why_called}", "not-portable")
 
     @property
-    def table(self) -> Table | None:
-        """The table that it is, if it is one."""
-        return self._function if isinstance(self._function, Table) else None
+    def tables(self) -> list[Table]:
+        """Tables that it reads, or the one that it is."""
+        if self.formula is not None:
+            return self.formula.tables
+        return [self._function] if isinstance(self._function, Table) else []
 
     @property
     def has_nodes(self) -> bool:
-        """True if `written` gives its node: a callable's computation is known to Python only."""
-        return self._function is None or hasattr(self._function, "written")
+        """True if `written` gives its node: the computation of what is called is known to Python only."""
+        return self._function is None or self.formula is not None or hasattr(self._function, "written")
 
     def written(self, equations: Any, x: Iterable[Any]) -> Any:
         """Node of its value, from the nodes x of its measures."""
@@ -184,7 +205,8 @@ class Law:
             return equations.graph.number(self.constant)
         if self.expression is not None:
             return equations.read(self.what, self.expression, {each: known[str(each)] for each in self.expression.free_symbols})
-        return self._function.written(equations, **{name: known[name] for name in self._names})
+        named = {name: known[name] for name in self._names}
+        return self._function.written(equations, **named) if self.formula is None else self.formula.written(equations, named)
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in vars(self).items() if name != "_call"}
@@ -202,8 +224,9 @@ class InputLaw:
     reactions: Mapping[str, str] = MappingProxyType({})
     names: tuple[str, ...] = ()
     kind: tuple[Any, ...] = ()
-    constant = expression = inner_expression = table = None
-    has_expression, is_plain, has_nodes = False, True, True
+    tables: Sequence[Table] = ()
+    constant = expression = inner_expression = None
+    has_expression, is_plain, has_nodes, why_called = False, True, True, ""
 
     def __init__(self, name: str, initial: float, *, is_speed: bool) -> None:
         self.what, self.input, self.initial, self.is_speed = f"input {name!r}", name, initial, is_speed

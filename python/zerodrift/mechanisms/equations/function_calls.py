@@ -135,7 +135,7 @@ class Laws:
     @property
     def tables(self) -> list[Any]:
         """Tables, in the order of the user functions that they are."""
-        return list(dict.fromkeys(row.law.table for row in self.rows if row.law.table is not None))
+        return list(dict.fromkeys(table for row in self.rows for table in row.law.tables))
 
     def check_written(self) -> None:
         """Check that code can be generated for all of them: they must not be callables."""

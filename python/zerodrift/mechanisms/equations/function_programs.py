@@ -82,7 +82,7 @@ class _Equations:
     """Equations into which a user function is written: `read` takes its one expression; decimal numbers follow the parameters."""
 
     def __init__(self, reader: Any, names: Sequence[str], k: int, template: Any = None, numbers: int = 0) -> None:
-        self.functions, self._template = reader, template
+        self._read, self._template = reader.read, template
         self.graph = reader.graph
         own = [self.graph.leaf("parameter", i) for i in range(len(names) + numbers)]
         self._size, self.splines = len(own), list[Any]()        # splines: those of which the numbers are the last ones
@@ -93,7 +93,7 @@ class _Equations:
 
     def read(self, what: str, expression: Any, known: Mapping[Any, Any]) -> Any:
         """Node of an expression."""
-        return self.functions.read(what, self._template, {**known, **self._numbers})
+        return self._read(what, self._template, {**known, **self._numbers})
 
     def spline(self, table: Any) -> Any:
         """Node of the number that stands for a table."""

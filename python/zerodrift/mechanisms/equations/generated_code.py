@@ -289,7 +289,8 @@ def _described(what: Any) -> Any:
     if isinstance(what, np.ndarray):
         return what.tolist()
     if isinstance(what, Mapping):
-        return [[key, _described(value)] for key, value in what.items() if key not in ("parameters", "what", "_call", "_spline")]
+        left_out = {"parameters", "what", "_call", "_spline", *(["_function"] if what.get("formula") else [])}
+        return [[key, _described(value)] for key, value in what.items() if key not in left_out]
     if isinstance(what, list | tuple):
         return [_described(each) for each in what]
     return [type(what).__name__, _described(vars(what))] if hasattr(what, "__dict__") else repr(what)

@@ -17,6 +17,7 @@ from ..._private.gateway.mechanisms.plane import Quantity
 from ..._private.gateway.mechanisms.plans import Link, PlanePlan
 from ...symbolics.graph.derivation import Derivation, Given
 from ...symbolics.graph.graph import Graph, Node
+from ...symbolics.graph.plain_functions import COS, SIN
 from .function_calls import Laws
 from .node_relations import Relations
 
@@ -141,7 +142,6 @@ class Equations(Relations):
     def __init__(self, plan: PlanePlan[Node], reader: Any, sizes: tuple[int, int, int, int], laws: Laws,
                  parameters: Mapping[str, Node]) -> None:
         self.plan, self.graph, self.read, self.laws, self.parameters = plan, reader.graph, reader.read, laws, parameters
-        self.functions = reader     # sin, cos and floor
         self.values: dict[Node, Node] = {}
         self.nq, _, self.mh, _ = sizes
         graph = self.graph
@@ -189,7 +189,7 @@ class Equations(Relations):
         turn = graph.zero, graph.one, graph.zero        # of particles
         if link.hang in (plans.FREE, plans.TURNING):
             angle = self.p[k + 2 if link.hang == plans.FREE else k]
-            turn = angle, graph.call(self.functions.cos, angle), graph.call(self.functions.sin, angle)
+            turn = angle, graph.call(COS, angle), graph.call(SIN, angle)
         elif link.hang in (plans.SLIDING, plans.FIXED):
             cosine, sine = self._rotated(link.cosine, link.sine, (inner.cosine, inner.sine))
             turn = graph.plus(inner.angle, link.angle), cosine, sine

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 from ..._private.gateway.mechanisms.element_tables import Triple, three
 from ..._private.gateway.mechanisms.space_plans import Link, Way
 from ...symbolics.graph.graph import Graph, Node
+from ...symbolics.graph.plain_functions import COS, SIN
 
 Vector = Triple[Node]
 
@@ -54,8 +55,6 @@ class Frames:
     links : sequence of Link
         Links whose numbers are nodes.
     graph : Graph
-    functions : Reader or Plain
-        Sine and cosine.
     nq, nv : int
 
     Attributes
@@ -69,8 +68,8 @@ class Frames:
         Expressions of the leaves of the graph.
     """
 
-    def __init__(self, links: Sequence[Link[Node]], graph: Graph, functions: Any, nq: int, nv: int) -> None:
-        self.graph, self.of, self._links, self._functions = graph, Vectors(graph), links, functions
+    def __init__(self, links: Sequence[Link[Node]], graph: Graph, nq: int, nv: int) -> None:
+        self.graph, self.of, self._links = graph, Vectors(graph), links
         self.p, self.v = ([graph.leaf(kind, i) for i in range(size)] for kind, size in (("p", nq), ("v", nv)))
         self.values: dict[Node, Node] = {}
         self._with_rates: set[Node] = set()
@@ -212,7 +211,7 @@ class Frames:
     def _turn_frame(self, way: Way[Node], frame: list[Vector], spin: Vector) -> None:
         """Rotate the frame about one of its directions."""
         graph, of, i, k = self.graph, self.of, (way.direction + 1) % 3, (way.direction + 2) % 3
-        c, s = (graph.call(function, self.p[way.p]) for function in (self._functions.cos, self._functions.sin))
+        c, s = (graph.call(function, self.p[way.p]) for function in (COS, SIN))
         s, a, b = graph.sum([(s, way.sign)]), frame[i], frame[k]
         turned = of.plus(of.scaled(c, a), of.scaled(s, b)), of.minus(of.scaled(c, b), of.scaled(s, a))
         for place, value in zip((i, k), turned, strict=True):

@@ -22,6 +22,7 @@ from ..._private.gateway.mechanisms.space import Quantity
 from ..._private.gateway.mechanisms.space_plans import Angle, Link, SpacePlan, Way
 from ...symbolics.graph.gradient import Gradient
 from ...symbolics.graph.graph import Node
+from ...symbolics.graph.plain_functions import ATAN2, FLOOR
 from . import nodes
 from .function_calls import Laws
 from .node_relations import Relations
@@ -90,10 +91,9 @@ class Equations(Relations):
     def __init__(self, plan: SpacePlan[Node], reader: Any, sizes: tuple[int, int, int, int], laws: Laws,
                  parameters: Mapping[str, Node]) -> None:
         self.plan, self.graph, self.read, self.laws, self.parameters = plan, reader.graph, reader.read, laws, parameters
-        self.functions = reader     # sin, cos, floor and atan2
         self.nq, self.nv, self.mh, _ = sizes
         self.t = self.graph.leaf("t", 0)
-        self.frames = frames = Frames(plan.links, self.graph, reader, self.nq, self.nv)
+        self.frames = frames = Frames(plan.links, self.graph, self.nq, self.nv)
         self.of, self.p, self.v, self.A, self.bodies = frames.of, frames.p, frames.v, frames.A, frames.bodies
         self.rate_of, self.values, self._rates = frames.rate_of, frames.values, frames.rates
         self._by_velocity = Gradient(self.graph, self.v)
@@ -151,12 +151,12 @@ class Equations(Relations):
         if counter is not None and counter < self.nq - self.plan.followers:
             return self._read(self.p[counter], quantity.zero)
         b = self.frames.turned(quantity.second, quantity.b)
-        value = graph.call(self.functions.atan2, graph.dot(self.frames.turned(quantity.first, quantity.o), b), graph.dot(a, b))
+        value = graph.call(ATAN2, graph.dot(self.frames.turned(quantity.first, quantity.o), b), graph.dot(a, b))
         reading = self._read(value, quantity.zero)
         if counter is None:
             return reading
         away = self.difference(self.p[counter], value)
-        turns = graph.call(self.functions.floor, graph.sum([(away, 1 / (2 * pi)), (graph.one, HALF)]))
+        turns = graph.call(FLOOR, graph.sum([(away, 1 / (2 * pi)), (graph.one, HALF)]))
         return reading._replace(value=graph.sum([(reading.value, 1), (turns, 2 * pi)]))
 
     def _rotation(self, quantity: Quantity[Node], a: Vector) -> Node:

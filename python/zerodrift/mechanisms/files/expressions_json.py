@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from ...errors import WrongValue
+from ...laws.formula import Formula, operands
 
 SIGNS = {"+": "Add", "*": "Mul", "^": "Pow", "<": "StrictLessThan", "<=": "LessThan", ">": "StrictGreaterThan",
          ">=": "GreaterThan", "=": "Equality", "!=": "Unequality", "and": "And", "or": "Or", "not": "Not", "cases": "Piecewise"}
@@ -18,6 +19,7 @@ FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh
              "log", "Abs", "sign", "Min", "Max", "floor", "ceiling", "Mod", "Heaviside")
 DEEPEST = 100       # nested operations, at most, for Python's stack
 LARGEST = 10**309       # largest whole number, near the largest double
+MAX_WORDS = 100_000     # of a formula
 MAX_BITS = 3000        # bits, at most, of powers of numbers, which SymPy evaluates exactly while reading
 CONSTANTS = {"pi": "pi", "e": "Exp1", "true": "true", "false": "false"}
 
@@ -74,6 +76,71 @@ def _written(expression: Any, what: str) -> Any:
     if word == "cases":
         return [word, *([_written(value, what), _written(condition, what)] for value, condition in expression.args)]
     return [word, *(_written(part, what) for part in expression.args)]
+
+
+def of_formula(formula: Formula, what: str, leaves: Mapping[str, Any]) -> Any:
+    """Formula of a function as lists of words and numbers."""
+    written: list[Any] = []
+    for code, *arguments in formula.operations:
+        parts = [written[each] for each in operands((code, *arguments))]
+        match code:
+            case "leaf":
+                made = leaves.get(arguments[0], arguments[0])
+            case "number":
+                made = arguments[0]
+            case "-":
+                made = ["+", parts[0], ["*", -1, parts[1]]]
+            case "/":
+                made = ["*", parts[0], ["^", parts[1], -1]]
+            case "negative":
+                made = ["*", -1, parts[0]]
+            case "choice":
+                made = ["cases", [parts[1], parts[0]], [parts[2], ["true"]]]
+            case "call":
+                made = _of_call(arguments[0], parts, what)
+            case "spline":
+                raise WrongValue(f"{what} must not read tables, to be saved", "not-portable")
+            case _:
+                word = arguments[0] if code in ("comparison", "logic") else code
+                made = [{"power": "^", "==": "="}.get(word, word), *parts]
+        written.append(made)
+    result = written[formula.result]
+    if _size(result) > MAX_WORDS:
+        raise WrongValue(f"{what} must have at most {MAX_WORDS} operations, each written where it is used, to be saved",
+                         "not-portable")
+    return result
+
+
+def _of_call(name: str, parts: list[Any], what: str) -> Any:
+    if name == "fmod":      # x less so many times y, towards zero
+        ratio = ["*", parts[0], ["^", parts[1], -1]]
+        whole = ["cases", [["ceiling", ratio], ["<", ratio, 0]], [["floor", ratio], ["true"]]]
+        return ["+", parts[0], ["*", -1, parts[1], whole]]
+    if name == "hypot":
+        return ["^", ["+", *(["^", part, 2] for part in parts)], ["/", 1, 2]]
+    if name in ("log2", "log10"):
+        return ["*", ["log", *parts], 1 / math.log(float(name[3:]))]
+    if name == "expm1":
+        return ["+", ["exp", *parts], -1]
+    if name == "log1p":
+        return ["log", ["+", 1, *parts]]
+    if name not in (*FUNCTIONS, "Pow"):
+        raise WrongValue(f"{what} must not have the function {name}, to be saved", "not-portable")
+    return ["^" if name == "Pow" else name, *parts]
+
+
+def _size(written: Any) -> int:
+    """Number of words of an expression whose parts may be shared."""
+    sizes: dict[int, int] = {}
+
+    def of(part: Any) -> int:
+        if not isinstance(part, list):
+            return 1
+        if id(part) not in sizes:
+            sizes[id(part)] = sum(map(of, part))
+        return sizes[id(part)]
+
+    return of(written)
 
 
 def from_json(written: Any, what: str, depth: int = 0) -> Any:

@@ -17,7 +17,7 @@ from ..elements.joints import JOINTS, Coupling
 from ..elements.table_forces import ELEMENTS, TableForce
 from .expressions_json import to_json
 from .space_to_json import IN_SPACE
-from .values_to_json import law_to_json, not_saved, numbers, place, sides
+from .values_to_json import formula_to_json, law_to_json, numbers, place, sides
 
 WHAT = "mechanism"      # first key of a file, by which it is recognized
 VERSION = 1             # version of the format
@@ -105,8 +105,8 @@ def _cam(coupling: Any, drawing: Drawing) -> dict[str, Any]:
         written: Any = {"angles": profile.angles.tolist(), "values": profile.values.tolist()}
     elif isinstance(profile, _Expression):
         written = to_json(profile._law.expression, coupling.law.what)
-    else:
-        raise not_saved(f"profile of {coupling.name!r}")
+    else:       # the constraint is that of the follower, less the profile
+        written = ["*", -1, formula_to_json(coupling.law, {"follower": 0})]
     return {"cam": coupling.of[0].rpartition(".")[0], "follower": coupling.of[1], "profile": written}
 
 

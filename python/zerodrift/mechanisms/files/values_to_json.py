@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -10,7 +12,7 @@ from ...errors import WrongValue
 from ..elements.bodies import Particle, Point, _Center
 from ..elements.drawing import Drawing
 from ..elements.user_functions import Law
-from .expressions_json import to_json
+from .expressions_json import of_formula, to_json
 
 
 def numbers(array: Any) -> Any:
@@ -42,12 +44,15 @@ def law_to_json(law: Law) -> Any:
     """JSON of a user function: a number, or an expression and the measures of its names."""
     if law.constant is not None:
         return law.constant
-    if law.expression is None:
-        raise not_saved(law.what)
     bound = {name: measure for name, measure in law._bound.items() if "." not in name}
-    return {"expression": to_json(law.expression, law.what), "of": bound}
+    return {"expression": to_json(law.expression, law.what) if law.formula is None and law.expression is not None else
+            formula_to_json(law), "of": bound}
 
 
-def not_saved(what: str) -> ValueError:
-    """Error for a callable."""
-    return WrongValue(f"{what} is a callable, which cannot be saved: a SymPy expression in its place can", "not-portable")
+def formula_to_json(law: Law, leaves: Mapping[str, Any] = MappingProxyType({})) -> Any:
+    """JSON of a function that could be recorded; `leaves` replace some of its names."""
+    if law.formula is None:
+        why = law.why_called or "is a table, or reads one"
+        raise WrongValue(f"{law.what} must be a number, an expression or a function that can be recorded, to be saved: it {why}",
+                         "not-portable")
+    return of_formula(law.formula, law.what, leaves)

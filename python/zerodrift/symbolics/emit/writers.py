@@ -34,9 +34,8 @@ def count_uses(program: Any) -> list[int]:
 
 
 def turn_of(function: Any) -> str:
-    """Name of the core's array of sines or cosines, for SymPy's sin and cos; "" for others, a user's sin too."""
-    is_known = isinstance(function, Function) or function.__module__.startswith("sympy.")
-    return TURNS.get(function.__name__, "") if is_known else ""
+    """Name of the core's array of sines or cosines, for sin and cos; "" for others, a user's sin too."""
+    return TURNS.get(function.__name__, "") if isinstance(function, Function) else ""
 
 
 def mathematics(operations: Iterable[Operation]) -> str:
@@ -141,10 +140,8 @@ class CWriter:
 
     def call(self, function: Any, values: list[str]) -> str:
         """Function call, printed by SymPy; its arguments are names and expressions of this writer."""
-        if function.__name__ == "Pow":
-            return self.named("power", *values)
         if isinstance(function, Function):
-            return f"{function.__name__}({', '.join(values)})"
+            return f"{function.in_c}({', '.join(values)})"
         from sympy import Symbol
 
         return _printer().doprint(function(*(Symbol(value, real=True) for value in values), evaluate=False))

@@ -13,8 +13,8 @@ from sympy.logic.boolalg import BooleanFunction
 
 from ...errors import WrongType, WrongValue
 from .graph import Graph, Node
-from .plain_functions import SPLINE, slope_of_spline
-from .sympy_functions import REWRITTEN, STEPS, TOTAL, WITHIN, computable
+from .plain_functions import NAMED, Function, slope
+from .sympy_functions import REWRITTEN, TOTAL, WITHIN, computable, named
 
 SIGNS = {sympy.StrictLessThan: "<", sympy.LessThan: "<=", sympy.StrictGreaterThan: ">", sympy.GreaterThan: ">=",
          sympy.Equality: "==", sympy.Unequality: "!="}
@@ -32,8 +32,6 @@ def namesake(e: Any, others: Iterable[Any]) -> str:
 
 class Reader:
     """Reads expressions of one system; `known` says what leaf or expression each of its symbols is."""
-
-    sin, cos, floor, atan2 = sympy.sin, sympy.cos, sympy.floor, sympy.atan2   # what nodes call where nothing is read
 
     def __init__(self) -> None:
         self.graph = Graph(self._slope)
@@ -54,16 +52,14 @@ class Reader:
 
     def _slope(self, function: Any, k: int, arguments: tuple[Node, ...]) -> Node:
         """The partial derivative of function(*arguments) by its k-th argument."""
-        if function is SPLINE:
-            return slope_of_spline(self.graph, k, arguments)
+        if isinstance(function, Function):
+            return slope(self.graph, function, k, arguments)
         key = function, k, len(arguments)
         if key not in self._slopes:
             dummies = [sympy.Dummy(f"argument {i}", real=True) for i in range(len(arguments))]
-            slope = sympy.S.Zero if function in STEPS else function(*dummies).diff(dummies[k])
-            self._slopes[key] = slope.replace(sympy.DiracDelta, lambda *_: sympy.S.Zero), dummies
-        slope, dummies = self._slopes[key]
-        return _Reading(self, f"the derivative of {function.__name__}", dict(zip(dummies, arguments, strict=True)))(slope)
-
+            self._slopes[key] = function(*dummies).diff(dummies[k]), dummies
+        found, dummies = self._slopes[key]
+        return _Reading(self, f"the derivative of {function.__name__}", dict(zip(dummies, arguments, strict=True)))(found)
 
     def compared(self, condition: Node) -> list[Node]:
         """Nodes that a condition compares."""
@@ -161,7 +157,7 @@ class _Reading:
                 return self._constant(e)
             value = exponent.content[0]
             return self._graph.product([(base, int(value) if value == int(value) else value)])
-        return self._graph.call(sympy.Pow, base, exponent)
+        return self._graph.call(NAMED["Pow"], base, exponent)
 
     def _call(self, e: Any) -> Node:
         if not computable(type(e)):
@@ -169,7 +165,7 @@ class _Reading:
         arguments = [self(argument) for argument in e.args]
         if all(argument.kind == "number" for argument in arguments):
             return self._constant(e)
-        value = self._graph.call(type(e), *arguments)
+        value = self._graph.call(named(type(e)), *arguments)
         if type(e) in WITHIN:
             return self._choice([(WITHIN[type(e)](*e.args), value)])
         return value

@@ -12,11 +12,12 @@ from typing import Any
 import sympy
 from sympy.codegen import cfunctions
 
-STEPS = (sympy.floor, sympy.ceiling)      # their derivative is zero except at jumps
-TOTAL = (sympy.sin, sympy.cos, sympy.atan, sympy.atan2, sympy.sinh, sympy.cosh, sympy.tanh, sympy.asinh, sympy.exp, sympy.Abs,
-         sympy.erf, sympy.erfc, *STEPS, cfunctions.expm1, cfunctions.hypot)    # have a value wherever arguments have
-PARTIAL = (sympy.tan, sympy.asin, sympy.acos, sympy.acosh, sympy.atanh, sympy.log, sympy.gamma, sympy.loggamma, cfunctions.log1p,
-           cfunctions.log2, cfunctions.log10)
+from .plain_functions import NAMED
+
+TOTAL = [NAMED[name] for name in (
+    "sin", "cos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "exp", "Abs", "erf", "erfc", "floor", "ceiling", "expm1",
+    "hypot")]       # have a value wherever arguments have
+WITH_GAMMA = sympy.gamma, sympy.loggamma
 WITHIN: dict[Any, Callable[..., Any]] = {sympy.loggamma: lambda x: x > 0}       # C has another value elsewhere
 IDENTICAL = (sympy.re, sympy.conjugate, sympy.adjoint, sympy.transpose)         # of real numbers
 REWRITTEN: dict[Any, Callable[..., Any]] = {
@@ -38,4 +39,9 @@ REWRITTEN: dict[Any, Callable[..., Any]] = {
 
 def computable(function: Any) -> bool:
     """True if C has the function, or it has a method that prints C."""
-    return function in TOTAL or function in PARTIAL or hasattr(function, "_ccode")
+    return named(function) is not function or function in WITH_GAMMA or hasattr(function, "_ccode")
+
+
+def named(function: Any) -> Any:
+    """The graph's own function of the name, if it is SymPy's; any other unchanged."""
+    return NAMED.get(function.__name__, function) if function.__module__.startswith("sympy.") else function

@@ -28,7 +28,7 @@ FUNCTIONS = {name: getattr(lib, f"ZD_CODE_{code or name.upper()}") for name, cod
     "Pow": "POWER", "zd_spline_at": "SPLINE", "sin": "", "cos": "", "tan": "", "asin": "", "acos": "", "atan": "", "atan2": "",
     "sinh": "", "cosh": "", "tanh": "", "asinh": "", "acosh": "", "atanh": "", "exp": "", "log": "", "Abs": "ABS",
     "floor": "", "ceiling": "", "erf": "", "erfc": "", "expm1": "", "hypot": "", "log1p": "", "log2": "", "log10": "",
-    "gamma": "", "loggamma": ""}.items()}
+    "gamma": "", "loggamma": "", "fmod": ""}.items()}
 TABLES = {"formulations": lib.ZD_FORMULATIONS, "integrators": lib.ZD_INTEGRATORS, "corrections": lib.ZD_CORRECTIONS}
 INPUTS = {"force": lib.ZD_INPUT_FORCE, "speed": lib.ZD_INPUT_SPEED}
 

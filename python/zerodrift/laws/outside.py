@@ -1,0 +1,344 @@
+"""What a function reads from outside, while it is recorded: its globals, closure, defaults and own object, as copies.
+
+`math`, builtins that ask for types, and classes' methods have stand-ins, so that a copy of the function computes with quantities.
+Whatever a recording could miss is refused by name: state, random numbers, time, other libraries.
+"""
+
+from __future__ import annotations
+
+import bisect
+import builtins
+import collections
+import dis
+import enum
+import functools
+import itertools
+import math
+import operator
+import types
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from .quantities import UFUNCS, Quantity, Unrecorded, function, largest, of_array, smallest
+from .table import Table
+
+PLAIN = (type(None), bool, int, float, complex, str, bytes, range, slice, Fraction, np.generic, np.dtype, enum.Enum, Table)
+FREE = {abs, all, any, bool, bytes, callable, dict, divmod, enumerate, filter, float, frozenset, int, len, list, map, pow, range,
+        reversed, round, set, slice, sorted, str, sum, tuple, zip, complex, repr, ord, chr, Fraction, functools.partial,
+        functools.reduce, collections.namedtuple}
+MODULES = (math, operator, bisect, itertools)       # whose functions have no state
+HANDLERS = {"SETUP_FINALLY", "SETUP_WITH", "PUSH_EXC_INFO"}
+STATE = {"STORE_GLOBAL": "sets a global name", "DELETE_GLOBAL": "sets a global name", "STORE_ATTR": "sets an attribute",
+         "DELETE_ATTR": "sets an attribute", "IMPORT_NAME": "imports a module", "YIELD_VALUE": "is a generator"}
+NESTED = 50         # objects within objects, at most
+SIZE = 10_000       # entries of a list, a dict, an array that is read, at most
+
+
+class Outside:
+    """Copies of what a function reads."""
+
+    def __init__(self) -> None:
+        self._copies: dict[int, tuple[Any, Any]] = {}       # by identity, with the original, which must stay
+        self._changeable: list[tuple[Any, Any]] = []        # copies, and their content
+        self._depth = 0
+
+    def of(self, value: Any) -> Any:
+        """Stand-in or copy of a value."""
+        if isinstance(value, PLAIN):
+            return value
+        if id(value) not in self._copies:
+            self._depth += 1
+            if self._depth > NESTED:
+                raise Unrecorded("reads objects that are nested too deeply")
+            self._copies[id(value)] = value, self._copied(value)
+            self._depth -= 1
+        return self._copies[id(value)][1]
+
+    def changed(self) -> str:
+        """Kind of a container that the function has changed; "" if there is none."""
+        return next((type(copy).__name__ for copy, content in self._changeable if not _same(_content(copy), content)), "")
+
+    def _copied(self, value: Any) -> Any:
+        is_hashable = _is_hashable(value)
+        if is_hashable and value in STAND_INS:
+            return STAND_INS[value]
+        if isinstance(value, types.ModuleType):
+            return Numpy(value, self) if value.__name__ in ("numpy", "numpy.linalg") else Module(value, self)
+        if isinstance(value, np.ndarray):
+            return self._array(value)
+        if isinstance(value, types.FunctionType):
+            return self._function(value)
+        if isinstance(value, types.MethodType):
+            return types.MethodType(self.of(value.__func__), self.of(value.__self__))
+        if isinstance(value, functools.partial):
+            return functools.partial(self.of(value.func), *map(self.of, value.args),
+                                     **{name: self.of(each) for name, each in value.keywords.items()})
+        if isinstance(value, list | tuple | dict | set | frozenset) and len(value) <= SIZE:
+            return self._container(value)
+        if isinstance(value, np.ufunc) or (isinstance(value, type) and issubclass(value, BaseException)):
+            return value
+        name = getattr(value, "__name__", "")
+        if is_hashable and (value in FREE or any(getattr(module, name, None) is value for module in MODULES)):
+            return value
+        if str(getattr(value, "__module__", "")).startswith("numpy") and not isinstance(getattr(value, "__self__", None),
+                                                                                        np.random.RandomState) and not isinstance(value, type) and callable(value):
+            return _of_numpy(value)
+        return self._object(value)
+
+    def _array(self, value: np.ndarray) -> Any:
+        if value.dtype.kind not in "biuf" or value.size > SIZE:
+            raise Unrecorded("reads an array that is large or not of numbers")
+        copy = value.view(np.ndarray).copy()
+        copy.flags.writeable = False
+        return copy
+
+    def _container(self, value: Any) -> Any:
+        if isinstance(value, dict):
+            if type(value) is not dict:
+                raise Unrecorded(f"reads a {type(value).__name__}")
+            copy: Any = {}
+            self._copies[id(value)] = value, copy
+            copy.update((key, self.of(each)) for key, each in value.items())
+        elif isinstance(value, list):
+            copy = [] if type(value) is list else None
+            if copy is None:
+                raise Unrecorded(f"reads a {type(value).__name__}")
+            self._copies[id(value)] = value, copy
+            copy.extend(map(self.of, value))
+        elif isinstance(value, tuple):
+            parts = map(self.of, value)
+            copy = type(value)(*parts) if hasattr(value, "_fields") else tuple(parts)
+        else:
+            copy = type(value)(map(self.of, value))
+        self._changeable.append((copy, _content(copy)))
+        return copy
+
+    def _function(self, value: types.FunctionType) -> types.FunctionType:
+        """Copy of a function whose globals and closure are copies."""
+        code, names = value.__code__, _checked(value.__code__, set(value.__code__.co_freevars))
+        own: dict[str, Any] = {"__builtins__": vars(builtins), "__name__": value.__module__}
+        copy = types.FunctionType(code, own, value.__name__, None, tuple(types.CellType() for _ in value.__closure__ or ()))
+        self._copies[id(value)] = value, copy
+        for name in names:
+            if name in value.__globals__:
+                own[name] = self.of(value.__globals__[name])
+            elif hasattr(builtins, name):
+                own[name] = self.of(getattr(builtins, name))
+        for cell, given in zip(copy.__closure__ or (), value.__closure__ or (), strict=True):
+            try:
+                cell.cell_contents = self.of(given.cell_contents)
+            except ValueError:      # a name that has no value yet
+                raise Unrecorded("reads a name that has no value") from None
+        copy.__defaults__ = None if value.__defaults__ is None else tuple(map(self.of, value.__defaults__))
+        copy.__kwdefaults__ = value.__kwdefaults__ and {name: self.of(each) for name, each in value.__kwdefaults__.items()}
+        return copy
+
+    def _object(self, value: Any) -> Any:
+        """Copy of an object of a user's class, with copies of its attributes and methods."""
+        kind = type(value)
+        named = getattr(value, "__qualname__", None) or f"a {kind.__name__}"
+        module = getattr(value, "__module__", None)
+        is_own = isinstance(kind, type) and kind.__flags__ & (1 << 9)      # made by a class statement: Py_TPFLAGS_HEAPTYPE
+        if isinstance(value, type) or not is_own or not hasattr(value, "__dict__") or hasattr(value, "__next__"):
+            raise Unrecorded(f"uses {module}.{named}" if module and module != "builtins" else f"uses {named}")
+        methods: dict[str, Any] = {}
+        copy_type = type(kind.__name__, (kind,), methods)
+        copy = object.__new__(copy_type)
+        self._copies[id(value)] = value, copy
+        for base in reversed(kind.__mro__[:-1]):
+            for name, each in vars(base).items():
+                if isinstance(each, types.FunctionType) and name not in ("__init__", "__new__", "__del__", "__repr__", "__str__",
+                                                                         "__eq__", "__hash__", "__setattr__", "__reduce__"):
+                    setattr(copy_type, name, _Method(each, self))
+                elif isinstance(each, property):
+                    setattr(copy_type, name, property(_Method(each.fget, self).function))
+        for name, each in vars(value).items():
+            copy.__dict__[name] = _Refused.unless(self, each)
+        return copy
+
+
+class _Method:
+    """Method that is copied where it is used: others of its class may be what cannot be recorded."""
+
+    def __init__(self, method: Any, outside: Outside) -> None:
+        self._method, self._outside = method, outside
+
+    def __get__(self, owner: Any, kind: Any = None) -> Any:
+        return types.MethodType(self._outside.of(self._method), owner)
+
+    def function(self, owner: Any) -> Any:
+        return self._outside.of(self._method)(owner)
+
+
+class _Refused:
+    """Attribute that cannot be copied, which only its use refuses."""
+
+    def __init__(self, reason: str) -> None:
+        self.__dict__["reason"] = reason
+
+    @classmethod
+    def unless(cls, outside: Outside, value: Any) -> Any:
+        """Copy of a value, or a stand-in that refuses every use."""
+        try:
+            return outside.of(value)
+        except Unrecorded as error:
+            return cls(str(error))
+
+    def __getattr__(self, name: str) -> Any:
+        raise Unrecorded(self.__dict__["reason"])
+
+    def _refuse(self, *_: Any) -> Any:
+        raise Unrecorded(self.__dict__["reason"])
+
+    __call__ = __getitem__ = __iter__ = __len__ = __bool__ = __add__ = __radd__ = __mul__ = __rmul__ = __sub__ = __rsub__ = _refuse
+    __truediv__ = __rtruediv__ = __lt__ = __gt__ = __le__ = __ge__ = __eq__ = __contains__ = __pow__ = __neg__ = _refuse
+    __hash__ = None     # type: ignore[assignment]
+
+
+class Module:
+    """Stand-in of a module: its names as copies, at use."""
+
+    def __init__(self, module: types.ModuleType, outside: Outside) -> None:
+        self._module, self._outside = module, outside
+
+    def __getattr__(self, name: str) -> Any:
+        return self._outside.of(getattr(self._module, name))
+
+
+class Numpy(Module):
+    """Stand-in of NumPy and of numpy.linalg, whose arrays are of objects."""
+
+    def __getattr__(self, name: str) -> Any:
+        value = getattr(self._module, name)
+        if isinstance(value, types.ModuleType):
+            if value.__name__ != "numpy.linalg":
+                raise Unrecorded(f"uses {value.__name__}")
+            return self._outside.of(value)
+        if name in ASKS:
+            return lambda x: getattr(self._module, name)(0.0 if isinstance(x, Quantity) else x)
+        if isinstance(value, type):
+            return value
+        return value if isinstance(value, np.ufunc | float | np.generic) or value is None else _of_numpy(value)
+
+
+ASKS = ("isscalar", "ndim", "shape", "size", "isreal", "iscomplexobj", "isrealobj")
+
+
+def _of_numpy(given: Callable[..., Any]) -> Callable[..., Any]:
+    """Function of NumPy whose arrays of floats are of objects."""
+    makes = given.__name__ in ("zeros", "ones", "empty", "full", "array", "asarray", "asanyarray", "zeros_like", "ones_like",
+                               "empty_like", "full_like", "atleast_1d", "eye", "identity")
+
+    @functools.wraps(given, updated=())
+    def called(*inputs: Any, **more: Any) -> Any:
+        if makes and more.get("dtype", float) in (float, np.float64, "float", "f8", "d"):
+            more = {**more, "dtype": object} if given.__name__ != "atleast_1d" else more
+        return of_array(given(*inputs, **more))
+    return called
+
+
+def _checked(code: types.CodeType, free: set[str]) -> list[str]:
+    """Names of globals that code reads; code with state, or that catches errors, is refused."""
+    found: dict[str, None] = {}
+    if code.co_flags & (0x20 | 0x80 | 0x200):     # generators, coroutines
+        raise Unrecorded("is a generator")
+    for each in dis.get_instructions(code):
+        if each.opname in HANDLERS:
+            raise Unrecorded("has a try or with statement")
+        if each.opname in STATE:
+            raise Unrecorded(f"{STATE[each.opname]}, {each.argval}" if each.argval else STATE[each.opname])
+        if each.opname in ("STORE_DEREF", "DELETE_DEREF") and each.argval in free:
+            raise Unrecorded(f"sets the name {each.argval} of another function")
+        if each.opname in ("LOAD_GLOBAL", "LOAD_NAME"):
+            found[each.argval] = None
+    for constant in code.co_consts:
+        if isinstance(constant, types.CodeType) and "<genexpr>" not in constant.co_name:
+            found.update(dict.fromkeys(_checked(constant, set(constant.co_freevars) & free)))
+        elif isinstance(constant, types.CodeType):
+            found.update(dict.fromkeys(_names_of_generator(constant)))
+    return [*found]
+
+
+def _names_of_generator(code: types.CodeType) -> list[str]:
+    """Names of globals in a generator expression, which any, all and sum take."""
+    return [each.argval for each in dis.get_instructions(code) if each.opname == "LOAD_GLOBAL"]
+
+
+def _is_hashable(value: Any) -> bool:
+    try:
+        hash(value)
+    except TypeError:
+        return False
+    return True
+
+
+def _content(container: Any) -> list[Any]:
+    return [each for pair in container.items() for each in pair] if isinstance(container, dict) else list(container)
+
+
+def _same(one: list[Any], other: list[Any]) -> bool:
+    return len(one) == len(other) and all(a is b for a, b in zip(one, other, strict=True))
+
+
+# ---- stand-ins ----
+
+def _of_math(name: str, of: str) -> Callable[..., Any]:
+    real = getattr(math, name)
+
+    def recorded(*x: Any) -> Any:
+        return UFUNCS[of](*x) if any(isinstance(each, Quantity) for each in x) else real(*x)
+    return recorded
+
+
+def _log(x: Any, base: Any = math.e) -> Any:
+    if not (isinstance(x, Quantity) or isinstance(base, Quantity)):
+        return math.log(x, base) if base != math.e else math.log(x)
+    numerator = function("log", x) if isinstance(x, Quantity) else math.log(x)
+    if base == math.e if not isinstance(base, Quantity) else False:
+        return numerator
+    return numerator / (function("log", base) if isinstance(base, Quantity) else math.log(base))
+
+
+def _hypot(*x: Any) -> Any:
+    if not any(isinstance(each, Quantity) for each in x):
+        return math.hypot(*x)
+    return abs(x[0]) if len(x) == 1 else functools.reduce(UFUNCS["hypot"], x)
+
+
+def _extreme(real: Callable[..., Any], of: Callable[..., Any]) -> Callable[..., Any]:
+    def extreme(*x: Any, **more: Any) -> Any:
+        values = list(x[0]) if len(x) == 1 else x
+        return real(values, **more) if more or not any(isinstance(each, Quantity) for each in values) else of(*values)
+    return extreme
+
+
+def _as_float(real: Callable[..., Any]) -> Callable[..., Any]:
+    """Function that asks for a type, of which a quantity has that of a float."""
+    return lambda x, *more: real(1.5 if isinstance(x, Quantity) else x, *more)
+
+
+class _Type(type):
+    """`type`, by which a quantity is a float."""
+
+    def __call__(cls, *x: Any) -> Any:
+        if len(x) != 1:
+            raise Unrecorded("makes a class")
+        return float if isinstance(x[0], Quantity) else builtins.type(x[0])
+
+
+class _type(metaclass=_Type):
+    pass
+
+
+MATH = {"acos": "arccos", "acosh": "arccosh", "asin": "arcsin", "asinh": "arcsinh", "atan": "arctan", "atan2": "arctan2",
+        "atanh": "arctanh", "copysign": "copysign", "cos": "cos", "cosh": "cosh", "degrees": "degrees", "exp": "exp",
+        "expm1": "expm1", "fabs": "fabs", "fmod": "fmod", "isfinite": "isfinite", "isinf": "isinf", "isnan": "isnan",
+        "log10": "log10", "log1p": "log1p", "log2": "log2", "pow": "power", "radians": "radians", "sin": "sin", "sinh": "sinh",
+        "sqrt": "sqrt", "tan": "tan", "tanh": "tanh"} | ({"cbrt": "cbrt", "exp2": "exp2"} if hasattr(math, "cbrt") else {})
+STAND_INS: dict[Any, Any] = {getattr(math, name): _of_math(name, of) for name, of in MATH.items()}
+STAND_INS |= {math.log: _log, math.hypot: _hypot, max: _extreme(max, largest), min: _extreme(min, smallest),
+              isinstance: _as_float(isinstance), hasattr: _as_float(hasattr), type: _type,
+              math.fsum: sum, math.floor: math.floor, math.ceil: math.ceil, math.trunc: math.trunc}

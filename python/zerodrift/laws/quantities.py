@@ -1,0 +1,335 @@
+"""Quantities: what a function computes with while it is recorded. They follow Python's operators and NumPy's protocols."""
+
+from __future__ import annotations
+
+import functools
+import math
+import operator
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from .formula import SIGNS, Operation
+
+Oracle = Callable[[int], bool]      # which side of a condition is followed
+
+
+class Unrecorded(Exception):
+    """Error by which a function cannot be recorded: its reason."""
+
+
+class Tape:
+    """Operations that have been recorded, each once; `decide` follows one side of a condition."""
+
+    def __init__(self, decide: Oracle) -> None:
+        self.operations: list[Operation] = []
+        self._numbers: dict[Any, int] = {}
+        self.decide = decide
+
+    def add(self, *operation: Any) -> Quantity:
+        """Quantity of an operation; one of numbers alone is computed by Python beforehand."""
+        key = (*operation, type(operation[1])) if operation[0] == "number" else operation
+        if key not in self._numbers:
+            self._numbers[key] = len(self.operations)
+            self.operations.append(operation)
+        return Quantity(self, self._numbers[key])
+
+    def operand(self, x: Any) -> int:
+        """Operation of a quantity or number; a condition counts as 1 or 0."""
+        if isinstance(x, Quantity):
+            if x.is_condition:
+                return self.choice(x, 1, 0).number
+            return x.number
+        return self.add("number", _number(x)).number
+
+    def choice(self, condition: Any, value: Any, otherwise: Any) -> Any:
+        """`value` if the condition holds, `otherwise` if not."""
+        if not isinstance(condition, Quantity):
+            return value if condition else otherwise
+        parts = self.operand(value), self.operand(otherwise)
+        return value if parts[0] == parts[1] else self.add("choice", condition.as_condition().number, *parts)
+
+
+def _number(x: Any) -> int | float:
+    if isinstance(x, np.ndarray) and x.ndim == 0:
+        x = x[()]
+    if isinstance(x, bool | int | np.integer | np.bool_):
+        return int(x)
+    if isinstance(x, float | np.floating | Fraction):
+        if not math.isfinite(x):
+            raise Unrecorded("computes with a number that is not finite")
+        return float(x)
+    raise Unrecorded(f"computes with {type(x).__name__}")
+
+
+def _is_scalar(x: Any) -> bool:
+    return isinstance(x, Quantity | bool | int | float | np.number | np.bool_ | Fraction)
+
+
+def _binary(code: str, *, swapped: bool = False) -> Callable[[Quantity, Any], Any]:
+    def method(self: Quantity, other: Any) -> Any:
+        if not _is_scalar(other):
+            return NotImplemented
+        a, b = (other, self) if swapped else (self, other)
+        return self.tape.add(code, self.tape.operand(a), self.tape.operand(b))
+    return method
+
+
+def _compared(sign: str, *, swapped: bool = False) -> Callable[[Quantity, Any], Any]:
+    def method(self: Quantity, other: Any) -> Any:
+        if not _is_scalar(other):
+            return NotImplemented
+        a, b = (other, self) if swapped else (self, other)
+        if isinstance(other, float | np.floating) and not math.isfinite(other):        # quantities are finite
+            return SIGNS[sign](other, 0.0) if swapped else SIGNS[sign](0.0, other)
+        return self.tape.add("comparison", sign, self.tape.operand(a), self.tape.operand(b))
+    return method
+
+
+def _joined(word: str) -> Callable[[Quantity, Any], Any]:
+    def method(self: Quantity, other: Any) -> Any:
+        if not isinstance(other, Quantity):
+            if not isinstance(other, bool | np.bool_):
+                return NotImplemented
+            return self if other == (word == "and") else bool(other)
+        return self.tape.add("logic", word, self.as_condition().number, other.as_condition().number)
+    return method
+
+
+def _converted(*_: Any) -> Any:
+    raise Unrecorded("converts a value to a plain number")
+
+
+class Quantity:
+    """Result of an operation of a tape, in place of a float; conditions are quantities, too."""
+
+    __slots__ = ("number", "tape")
+    __hash__ = None     # type: ignore[assignment]
+
+    def __init__(self, tape: Tape, number: int) -> None:
+        self.tape, self.number = tape, number
+
+    @property
+    def is_condition(self) -> bool:
+        return self.tape.operations[self.number][0] in ("comparison", "logic")
+
+    def as_condition(self) -> Quantity:
+        """The condition that it is, or that it is not zero."""
+        return self if self.is_condition else self != 0
+
+    def __bool__(self) -> bool:
+        return self.tape.decide(self.as_condition().number)
+
+    __add__, __radd__ = _binary("+"), _binary("+", swapped=True)
+    __sub__, __rsub__ = _binary("-"), _binary("-", swapped=True)
+    __mul__, __rmul__ = _binary("*"), _binary("*", swapped=True)
+    __truediv__, __rtruediv__ = _binary("/"), _binary("/", swapped=True)
+    __pow__, __rpow__ = _binary("power"), _binary("power", swapped=True)
+    __lt__, __le__, __gt__, __ge__ = (_compared("<"), _compared("<="), _compared("<", swapped=True), _compared("<=", swapped=True))
+    __eq__, __ne__ = _compared("=="), _compared("!=")       # type: ignore[assignment]
+    __and__ = __rand__ = _joined("and")
+    __or__ = __ror__ = _joined("or")
+    __float__ = __int__ = __index__ = __complex__ = __round__ = __iter__ = __len__ = _converted
+
+    def __neg__(self) -> Quantity:
+        return self.tape.add("negative", self.tape.operand(self))
+
+    def __pos__(self) -> Quantity:
+        return self
+
+    def __abs__(self) -> Quantity:
+        return self.call("Abs")
+
+    def __invert__(self) -> Quantity:
+        return self.tape.add("logic", "not", self.as_condition().number)
+
+    def __floor__(self) -> Quantity:
+        return self.call("floor")
+
+    def __ceil__(self) -> Quantity:
+        return self.call("ceiling")
+
+    def __trunc__(self) -> Quantity:
+        return self.tape.choice(self < 0, self.call("ceiling"), self.call("floor"))
+
+    def __mod__(self, y: Any) -> Any:
+        return remainder(self, y) if _is_scalar(y) else NotImplemented
+
+    def __rmod__(self, x: Any) -> Any:
+        return remainder(x, self) if _is_scalar(x) else NotImplemented
+
+    def __floordiv__(self, y: Any) -> Any:
+        return quotient(self, y) if _is_scalar(y) else NotImplemented
+
+    def __rfloordiv__(self, x: Any) -> Any:
+        return quotient(x, self) if _is_scalar(x) else NotImplemented
+
+    def __divmod__(self, y: Any) -> Any:
+        return self // y, self % y
+
+    def call(self, name: str, *others: Any) -> Quantity:
+        """Function of the graph, of this and others."""
+        return self.tape.add("call", name, *map(self.tape.operand, (self, *others)))
+
+    def read(self, table: Any) -> Quantity:
+        """Value of a table."""
+        return self.tape.add("spline", table, self.tape.operand(self))
+
+    def conjugate(self) -> Quantity:
+        return self
+
+    @property
+    def real(self) -> Quantity:
+        return self
+
+    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **more: Any) -> Any:
+        return _applied(ufunc, method, inputs, more)
+
+    def __array_function__(self, function: Any, types: Any, inputs: Any, more: Any) -> Any:
+        return _called(function, inputs, more)
+
+
+class Quantities(np.ndarray[Any, Any]):
+    """Array of quantities and numbers, of dtype object."""
+
+    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **more: Any) -> Any:
+        return _applied(ufunc, method, inputs, more)
+
+    def __array_function__(self, function: Any, types: Any, inputs: Any, more: Any) -> Any:
+        return _called(function, inputs, more)
+
+
+def of_array(x: Any) -> Any:
+    """Array of objects as quantities, one without dimension as its entry; anything else unchanged."""
+    if not isinstance(x, np.ndarray) or x.dtype != object:
+        return x
+    return x[()] if x.ndim == 0 else x.view(Quantities)
+
+
+def _objects(x: Any) -> Any:
+    """Quantities within arguments as arrays of objects without protocols."""
+    if isinstance(x, Quantity):
+        found = np.empty((), dtype=object)
+        found[()] = x
+        return found
+    if isinstance(x, Quantities):
+        return x.view(np.ndarray)
+    return [_objects(each) if isinstance(each, list | tuple) else each for each in x] if type(x) in (list, tuple) else x
+
+
+def _applied(ufunc: np.ufunc, method: str, inputs: tuple[Any, ...], more: dict[str, Any]) -> Any:
+    """Result of a universal function."""
+    if method != "__call__" or ufunc.signature is not None:
+        return of_array(getattr(ufunc, method)(*map(_objects, inputs), **more))
+    if more:
+        raise Unrecorded(f"calls np.{ufunc.__name__} with {', '.join(more)}")
+    function = functools.partial(_of_one, ufunc)
+    if all(map(_is_scalar, inputs)):
+        return function(*inputs)
+    return of_array(np.frompyfunc(function, ufunc.nin, 1)(*map(_objects, inputs)))
+
+
+def _of_one(ufunc: np.ufunc, *x: Any) -> Any:
+    if not any(isinstance(each, Quantity) for each in x):
+        return ufunc(*x)
+    if ufunc.__name__ not in UFUNCS:
+        raise Unrecorded(f"calls np.{ufunc.__name__}")
+    return UFUNCS[ufunc.__name__](*x)
+
+
+def _called(function: Any, inputs: tuple[Any, ...], more: dict[str, Any]) -> Any:
+    """Result of any other function of NumPy: its own code, which computes with objects."""
+    if function.__name__ in CALLS:
+        return CALLS[function.__name__](*inputs, **more)
+    return of_array(function(*map(_objects, inputs), **{name: _objects(value) for name, value in more.items()}))
+
+
+# ---- functions ----
+
+def _tape(*x: Any) -> Tape:
+    return next(each.tape for each in x if isinstance(each, Quantity))
+
+
+def where(condition: Any, value: Any, otherwise: Any) -> Any:
+    """`value` where the condition holds, `otherwise` elsewhere, entry by entry."""
+    def one(condition: Any, value: Any, otherwise: Any) -> Any:
+        return condition.tape.choice(condition, value, otherwise) if isinstance(condition, Quantity) else (
+            value if condition else otherwise)
+    parts = condition, value, otherwise
+    return one(*parts) if all(map(_is_scalar, parts)) else of_array(np.frompyfunc(one, 3, 1)(*map(_objects, parts)))
+
+
+def largest(*x: Any) -> Any:
+    """Maximum, as Python has it: the first of equal ones."""
+    return functools.reduce(lambda best, other: where(other > best, other, best), x)
+
+
+def smallest(*x: Any) -> Any:
+    """Minimum, likewise."""
+    return functools.reduce(lambda best, other: where(other < best, other, best), x)
+
+
+def remainder(x: Any, y: Any) -> Any:
+    """x % y, which has the sign of y."""
+    rest = function("fmod", x, y)
+    other_sign = (rest < 0) & (y > 0) | (rest > 0) & (y < 0) if isinstance(y, Quantity) else rest < 0 if y > 0 else rest > 0
+    return where(other_sign, rest + y, rest)
+
+
+def quotient(x: Any, y: Any) -> Any:
+    """x // y, a whole number: the nearest to that of x less the remainder."""
+    return function("floor", (x - remainder(x, y)) / y + 0.5)
+
+
+def function(name: str, *x: Any) -> Any:
+    """Function of the graph."""
+    tape = _tape(*x)
+    return tape.add("call", name, *map(tape.operand, x))
+
+
+def _clip(x: Any, low: Any = None, high: Any = None, **more: Any) -> Any:
+    """x within limits, as np.clip has it."""
+    low, high = (more.pop(name, limit) for name, limit in (("min", low), ("max", high)))
+    low, high = more.pop("a_min", low), more.pop("a_max", high)
+    if more:
+        raise Unrecorded(f"calls np.clip with {', '.join(more)}")
+    x = x if low is None else UFUNCS["maximum"](x, low) if _is_scalar(x) else np.maximum(x, low)
+    return x if high is None else UFUNCS["minimum"](x, high) if _is_scalar(x) else np.minimum(x, high)
+
+
+def _select(conditions: Any, values: Any, default: Any = 0) -> Any:
+    return functools.reduce(lambda rest, case: where(case[0], case[1], rest),
+                            reversed(list(zip(conditions, values, strict=True))), default)
+
+
+def _cube_root(x: Any) -> Any:
+    return where(x < 0, -((-x) ** (1 / 3)), x ** (1 / 3))
+
+
+def _named(name: str) -> Callable[..., Any]:
+    return lambda *x: function(name, *x)
+
+
+# by NumPy's names
+UFUNCS: dict[str, Callable[..., Any]] = {
+    "add": operator.add, "subtract": operator.sub, "multiply": operator.mul, "divide": operator.truediv,
+    "true_divide": operator.truediv, "negative": operator.neg, "positive": operator.pos, "power": operator.pow,
+    "float_power": operator.pow, "absolute": abs, "fabs": abs, "square": lambda x: x * x, "reciprocal": lambda x: 1 / x,
+    "sqrt": lambda x: x ** 0.5, "cbrt": _cube_root, "remainder": remainder, "floor_divide": quotient, "fmod": _named("fmod"),
+    "floor": math.floor, "ceil": math.ceil, "trunc": math.trunc, "maximum": lambda a, b: where(a >= b, a, b), "minimum":
+    lambda a, b: where(a <= b, a, b), "sign": lambda x: where(x > 0, 1, where(x < 0, -1, 0)), "heaviside":
+    lambda x, middle: where(x < 0, 0, where(x > 0, 1, middle)), "less": operator.lt, "less_equal": operator.le,
+    "greater": operator.gt, "greater_equal": operator.ge, "equal": operator.eq, "not_equal": operator.ne,
+    "logical_and": operator.and_, "logical_or": operator.or_, "logical_not": operator.invert, "bitwise_and": operator.and_,
+    "bitwise_or": operator.or_, "invert": operator.invert, "exp2": lambda x: 2 ** x, "deg2rad": lambda x: x * (math.pi / 180),
+    "radians": lambda x: x * (math.pi / 180), "rad2deg": lambda x: x * (180 / math.pi), "degrees": lambda x: x * (180 / math.pi),
+    "copysign": lambda x, y: where(y < 0, -abs(x), abs(x)), "conjugate": lambda x: x, "isnan": lambda x: False,
+    "isfinite": lambda x: True, "isinf": lambda x: False,
+    **{name: _named(of or name) for name, of in {
+        "sin": "", "cos": "", "tan": "", "arcsin": "asin", "arccos": "acos", "arctan": "atan", "arctan2": "atan2", "sinh": "",
+        "cosh": "", "tanh": "", "arcsinh": "asinh", "arccosh": "acosh", "arctanh": "atanh", "exp": "", "expm1": "", "log": "",
+        "log1p": "", "log2": "", "log10": "", "hypot": ""}.items()}}
+UFUNCS |= {"fmax": UFUNCS["maximum"], "fmin": UFUNCS["minimum"]}
+CALLS: dict[str, Callable[..., Any]] = {"where": where, "clip": _clip, "select": _select}
