@@ -241,7 +241,7 @@ def observed_order(system, t_end=0.5, coarsest=10, refinements=8, **options):
 def called(function):
     """The same user function, which cannot be recorded, so that Python is called."""
     @functools.wraps(function)
-    def caller(**x):
+    def caller(*x, **named):
         with contextlib.nullcontext():
-            return function(**x)
+            return function(*x, **named)
     return caller

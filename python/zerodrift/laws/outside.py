@@ -27,7 +27,7 @@ from .table import Table
 
 PLAIN = (type(None), bool, int, float, complex, str, bytes, range, slice, Fraction, np.generic, np.dtype, enum.Enum, Table)
 FREE = {abs, all, any, bool, bytes, callable, dict, divmod, enumerate, filter, float, frozenset, int, len, list, map, pow, range,
-        reversed, round, set, slice, sorted, str, sum, tuple, zip, complex, repr, ord, chr, Fraction, functools.partial,
+        reversed, round, set, slice, sorted, str, sum, super, tuple, zip, complex, repr, ord, chr, Fraction, functools.partial,
         functools.reduce, collections.namedtuple}
 MODULES = (math, operator, bisect, itertools)       # whose functions have no state
 HANDLERS = {"SETUP_FINALLY", "SETUP_WITH", "PUSH_EXC_INFO"}
@@ -127,9 +127,9 @@ class Outside:
                 own[name] = self.of(value.__globals__[name])
             elif hasattr(builtins, name):
                 own[name] = self.of(getattr(builtins, name))
-        for cell, given in zip(copy.__closure__ or (), value.__closure__ or (), strict=True):
+        for name, cell, given in zip(code.co_freevars, copy.__closure__ or (), value.__closure__ or (), strict=True):
             try:
-                cell.cell_contents = self.of(given.cell_contents)
+                cell.cell_contents = given.cell_contents if name == "__class__" else self.of(given.cell_contents)
             except ValueError:      # a name that has no value yet
                 raise Unrecorded("reads a name that has no value") from None
         copy.__defaults__ = None if value.__defaults__ is None else tuple(map(self.of, value.__defaults__))

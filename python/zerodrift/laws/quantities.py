@@ -223,6 +223,10 @@ def _applied(ufunc: np.ufunc, method: str, inputs: tuple[Any, ...], more: dict[s
     """Result of a universal function."""
     if method != "__call__" or ufunc.signature is not None:
         return of_array(getattr(ufunc, method)(*map(_objects, inputs), **more))
+    if [*more] == ["out"]:
+        out, = more["out"]
+        out[...] = _applied(ufunc, method, inputs, {})
+        return out
     if more:
         raise Unrecorded(f"calls np.{ufunc.__name__} with {', '.join(more)}")
     function = functools.partial(_of_one, ufunc)
@@ -236,7 +240,7 @@ def _of_one(ufunc: np.ufunc, *x: Any) -> Any:
         return ufunc(*x)
     if ufunc.__name__ not in UFUNCS:
         raise Unrecorded(f"calls np.{ufunc.__name__}")
-    return UFUNCS[ufunc.__name__](*x)
+    return UFUNCS[ufunc.__name__](*(each.item() if isinstance(each, np.generic) else each for each in x))
 
 
 def _called(function: Any, inputs: tuple[Any, ...], more: dict[str, Any]) -> Any:

@@ -47,6 +47,8 @@ def record(given: Callable[..., Any], names: Sequence[str], parameters: Mapping[
         _compare(given, formula, tree, paths, names, parameters)
     except Unrecorded as error:
         return None, str(error)
+    except Exception as error:      # of objects that are not as others
+        return None, f"cannot be copied, which raises {type(error).__name__}"
     return formula, ""
 
 
