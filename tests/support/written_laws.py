@@ -254,6 +254,11 @@ def divided(x, v):
     return x // 0.3 + (-x) % 0.7 + math.fmod(x, 0.4) + divmod(v, 0.25)[1] + x % (1 + abs(v))
 
 
+@functools.lru_cache
+def cached(x):
+    return x * x
+
+
 RECORDED = [
     spring, early_return, hunt_crossley, stribeck, dead_zone, trapezoid, loop_over_list, nested_loops, while_of_numbers, smoothstep,
     of_bisect, with_logic, with_vectors, filled_array, rotation, satellites, magic_formula, selected, only_one_side, matched, walrus,
@@ -271,7 +276,7 @@ RECORDED = [
     lambda x: 2.0 ** -abs(x) + (1 + x * x) ** x, lambda x: np.sum(np.array([x, 2 * x]) ** 2) + np.mean([x, 1.0]),
     lambda x: np.maximum(x, np.minimum(0.5, 2 * x)), lambda x: np.abs([x, -2.0])[0], lambda x: {"a": x, "b": 2 * x}["b"],
     lambda x: 3.0, lambda x: (x if x > 0 else 0.0) + (x if x > 1 else 0.0), lambda t: np.sin(t),
-    lambda x: next_to(x)(x), np.sin, CURVE["speed"][1] * Motor(2.0).stall and (lambda x: CURVE["torque"][1] * x),
+    cached, lambda x: next_to(x)(x), np.sin, CURVE["speed"][1] * Motor(2.0).stall and (lambda x: CURVE["torque"][1] * x),
 ]
 
 
@@ -328,17 +333,12 @@ def with_import(x):
     return m.sin(x)
 
 
-@functools.lru_cache
-def cached(x):
-    return x * x
-
-
 NUMBERS = itertools.count()
 CALLS = [
     (Pid(), "sets an attribute, sum"), (pid_in_dict, "changes a dict"), (appended, "changes a list"), (counter(), "sets the name n"),
     (global_name, "sets a global name, K"), (caught, "try"), (refused_above, "raises ValueError"), (forgotten, "returns NoneType"),
     (too_many, "more than 64 paths"), (unbounded, "more than 64 paths|length depends"), (with_import, "imports a module"),
-    (cached, "uses .*cached|cannot be copied"), (lambda x: float(x), "converts"), (lambda x: int(x) * 1.0, "converts"), (lambda x: round(x, 2), "converts"),
+    (lambda x: float(x), "converts"), (lambda x: int(x) * 1.0, "converts"), (lambda x: round(x, 2), "converts"),
     (lambda x: x * random.random(), "random"), (lambda x: x * np.random.random(), "numpy.random"), (lambda x: x + time.time(), "time"),
     (lambda x: x + next(NUMBERS), "next|count"), (lambda x: print(x) or x, "print"), (lambda x: x > 0, "returns a condition"),
     (lambda x: [x][int(x > 9)], "converts"), (lambda x: np.linalg.solve([[2.0, 1], [1, x + 5]], [1, 1])[0], "raises|converts"),

@@ -6,6 +6,7 @@ Whatever a recording could miss is refused by name: state, random numbers, time,
 
 from __future__ import annotations
 
+import abc
 import bisect
 import builtins
 import collections
@@ -33,6 +34,9 @@ MODULES = (math, operator, bisect, itertools)       # whose functions have no st
 HANDLERS = {"SETUP_FINALLY", "SETUP_WITH", "PUSH_EXC_INFO"}
 STATE = {"STORE_GLOBAL": "sets a global name", "DELETE_GLOBAL": "sets a global name", "STORE_ATTR": "sets an attribute",
          "DELETE_ATTR": "sets an attribute", "IMPORT_NAME": "imports a module", "YIELD_VALUE": "is a generator"}
+OPERATORS = {f"__{name}__" for name in ("call", "getitem", "len", "iter", "contains", "add", "radd", "sub", "rsub", "mul", "rmul",
+                                        "truediv", "rtruediv", "neg", "pow", "matmul", "abs", "bool", "lt", "le", "gt", "ge")}
+FILES = ("save", "load", "set", "from", "gen", "memmap", "print", "show", "info", "test", "get", "buffer", "apply", "vectorize")
 NESTED = 50         # objects within objects, at most
 SIZE = 10_000       # entries of a list, a dict, an array that is read, at most
 
@@ -71,6 +75,8 @@ class Outside:
             return self._array(value)
         if isinstance(value, types.FunctionType):
             return self._function(value)
+        if isinstance(value, functools._lru_cache_wrapper):
+            return self.of(value.__wrapped__)
         if isinstance(value, types.MethodType):
             return types.MethodType(self.of(value.__func__), self.of(value.__self__))
         if isinstance(value, functools.partial):
@@ -83,9 +89,12 @@ class Outside:
         name = getattr(value, "__name__", "")
         if is_hashable and (value in FREE or any(getattr(module, name, None) is value for module in MODULES)):
             return value
-        if str(getattr(value, "__module__", "")).startswith("numpy") and not isinstance(getattr(value, "__self__", None),
-                                                                                        np.random.RandomState) and not isinstance(value, type) and callable(value):
+        if callable(value) and name and getattr(np, name, getattr(np.linalg, name, None)) is value and not isinstance(value, type):
             return _of_numpy(value)
+        if type(value) is types.SimpleNamespace:
+            copy = types.SimpleNamespace(**{key: self.of(each) for key, each in vars(value).items()})
+            self._changeable.append((vars(copy), _content(vars(copy))))
+            return copy
         return self._object(value)
 
     def _array(self, value: np.ndarray) -> Any:
@@ -123,16 +132,15 @@ class Outside:
         copy = types.FunctionType(code, own, value.__name__, None, tuple(types.CellType() for _ in value.__closure__ or ()))
         self._copies[id(value)] = value, copy
         for name in names:
-            if name in value.__globals__:
-                own[name] = self.of(value.__globals__[name])
-            elif hasattr(builtins, name):
-                own[name] = self.of(getattr(builtins, name))
+            if name in value.__globals__ or hasattr(builtins, name):
+                own[name] = _Refused.unless(self, value.__globals__.get(name, getattr(builtins, name, None)))
         for name, cell, given in zip(code.co_freevars, copy.__closure__ or (), value.__closure__ or (), strict=True):
             try:
                 cell.cell_contents = given.cell_contents if name == "__class__" else self.of(given.cell_contents)
             except ValueError:      # a name that has no value yet
                 raise Unrecorded("reads a name that has no value") from None
         copy.__defaults__ = None if value.__defaults__ is None else tuple(map(self.of, value.__defaults__))
+        copy.__dict__.update((name, self.of(each)) for name, each in vars(value).items() if name != "__wrapped__")
         copy.__kwdefaults__ = value.__kwdefaults__ and {name: self.of(each) for name, each in value.__kwdefaults__.items()}
         return copy
 
@@ -142,7 +150,8 @@ class Outside:
         named = getattr(value, "__qualname__", None) or f"a {kind.__name__}"
         module = getattr(value, "__module__", None)
         is_own = isinstance(kind, type) and kind.__flags__ & (1 << 9)      # made by a class statement: Py_TPFLAGS_HEAPTYPE
-        if isinstance(value, type) or not is_own or not hasattr(value, "__dict__") or hasattr(value, "__next__"):
+        is_usual = type(kind) in (type, abc.ABCMeta) and not hasattr(kind.__init_subclass__, "__func__")
+        if isinstance(value, type) or not is_own or not is_usual or not hasattr(value, "__dict__") or hasattr(value, "__next__"):
             raise Unrecorded(f"uses {module}.{named}" if module and module != "builtins" else f"uses {named}")
         methods: dict[str, Any] = {}
         copy_type = type(kind.__name__, (kind,), methods)
@@ -150,13 +159,20 @@ class Outside:
         self._copies[id(value)] = value, copy
         for base in reversed(kind.__mro__[:-1]):
             for name, each in vars(base).items():
-                if isinstance(each, types.FunctionType) and name not in ("__init__", "__new__", "__del__", "__repr__", "__str__",
-                                                                         "__eq__", "__hash__", "__setattr__", "__reduce__"):
-                    setattr(copy_type, name, _Method(each, self))
+                if isinstance(each, types.FunctionType):
+                    if name in OPERATORS or not name.startswith("__"):
+                        setattr(copy_type, name, _Method(each, self))
                 elif isinstance(each, property):
                     setattr(copy_type, name, property(_Method(each.fget, self).function))
+                elif isinstance(each, staticmethod):
+                    setattr(copy_type, name, staticmethod(_Refused.unless(self, each.__func__)))
+                elif not name.startswith("_") and not hasattr(type(each), "__get__"):
+                    setattr(copy_type, name, _Refused.unless(self, each))
+                elif isinstance(each, classmethod):
+                    setattr(copy_type, name, _Refused(f"uses the class method {name}"))
         for name, each in vars(value).items():
             copy.__dict__[name] = _Refused.unless(self, each)
+        self._changeable.append((copy.__dict__, _content(copy.__dict__)))
         return copy
 
 
@@ -213,6 +229,8 @@ class Numpy(Module):
 
     def __getattr__(self, name: str) -> Any:
         value = getattr(self._module, name)
+        if name.startswith(FILES):
+            raise Unrecorded(f"uses np.{name}")
         if isinstance(value, types.ModuleType):
             if value.__name__ != "numpy.linalg":
                 raise Unrecorded(f"uses {value.__name__}")

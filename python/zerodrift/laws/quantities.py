@@ -11,48 +11,47 @@ from typing import Any
 
 import numpy as np
 
-from .formula import SIGNS, Operation
+from ..symbolics.graph.graph import Node
+from ..symbolics.graph.plain_functions import NAMED, SPLINE, Plain
+from .formula import FUNCTIONS, IN_NUMPY, SIGNS, leaf
 
-Oracle = Callable[[int], bool]      # which side of a condition is followed
+
+LARGEST = 1.7976931348623157e308
 
 
 class Unrecorded(Exception):
     """Error by which a function cannot be recorded: its reason."""
 
 
-class Tape:
-    """Operations that have been recorded, each once; `decide` follows one side of a condition."""
+class Sheet:
+    """Graph in which a function is recorded; `decide` follows one side of a condition."""
 
-    def __init__(self, decide: Oracle) -> None:
-        self.operations: list[Operation] = []
-        self._numbers: dict[Any, int] = {}
-        self.decide = decide
+    def __init__(self, decide: Callable[[Node], bool]) -> None:
+        self.graph, self.decide = Plain().graph, decide
 
-    def add(self, *operation: Any) -> Quantity:
-        """Quantity of an operation; one of numbers alone is computed by Python beforehand."""
-        key = (*operation, type(operation[1])) if operation[0] == "number" else operation
-        if key not in self._numbers:
-            self._numbers[key] = len(self.operations)
-            self.operations.append(operation)
-        return Quantity(self, self._numbers[key])
+    def leaf(self, name: str) -> Quantity:
+        """Quantity of a name."""
+        return Quantity(self, leaf(self.graph, name))
 
-    def operand(self, x: Any) -> int:
-        """Operation of a quantity or number; a condition counts as 1 or 0."""
-        if isinstance(x, Quantity):
-            if x.is_condition:
-                return self.choice(x, 1, 0).number
-            return x.number
-        return self.add("number", _number(x)).number
+    def node(self, x: Any) -> Node:
+        """Node of a quantity or number; a condition counts as 1 or 0."""
+        if not isinstance(x, Quantity):
+            return self.graph.number(_number(x))
+        return self.graph.choice(((x.node, self.graph.one),), self.graph.zero) if x.is_condition else x.node
 
-    def choice(self, condition: Any, value: Any, otherwise: Any) -> Any:
+    def call(self, name: str, *x: Any) -> Quantity:
+        """Function of the graph."""
+        nodes = [*map(self.node, x)]
+        if all(node.kind == "number" for node in nodes):
+            return Quantity(self, self.graph.number(_number(FUNCTIONS[name](*(float(node.content[0]) for node in nodes)))))
+        return Quantity(self, self.graph.call(NAMED[name], *nodes))
+
+    def choice(self, condition: Quantity, value: Any, otherwise: Any) -> Quantity:
         """`value` if the condition holds, `otherwise` if not."""
-        if not isinstance(condition, Quantity):
-            return value if condition else otherwise
-        parts = self.operand(value), self.operand(otherwise)
-        return value if parts[0] == parts[1] else self.add("choice", condition.as_condition().number, *parts)
+        return Quantity(self, self.graph.choice(((condition.as_condition().node, self.node(value)),), self.node(otherwise)))
 
 
-def _number(x: Any) -> int | float:
+def _number(x: Any) -> Any:
     if isinstance(x, np.ndarray) and x.ndim == 0:
         x = x[()]
     if isinstance(x, bool | int | np.integer | np.bool_):
@@ -60,7 +59,7 @@ def _number(x: Any) -> int | float:
     if isinstance(x, float | np.floating | Fraction):
         if not math.isfinite(x):
             raise Unrecorded("computes with a number that is not finite")
-        return float(x)
+        return x if isinstance(x, Fraction) else float(x)
     raise Unrecorded(f"computes with {type(x).__name__}")
 
 
@@ -68,33 +67,45 @@ def _is_scalar(x: Any) -> bool:
     return isinstance(x, Quantity | bool | int | float | np.number | np.bool_ | Fraction)
 
 
-def _binary(code: str, *, swapped: bool = False) -> Callable[[Quantity, Any], Any]:
+def _binary(combine: Callable[[Sheet, Node, Node], Node], *, swapped: bool = False) -> Callable[[Quantity, Any], Any]:
     def method(self: Quantity, other: Any) -> Any:
         if not _is_scalar(other):
             return NotImplemented
-        a, b = (other, self) if swapped else (self, other)
-        return self.tape.add(code, self.tape.operand(a), self.tape.operand(b))
+        a, b = map(self.sheet.node, (other, self) if swapped else (self, other))
+        return Quantity(self.sheet, combine(self.sheet, a, b))
     return method
 
 
-def _compared(sign: str, *, swapped: bool = False) -> Callable[[Quantity, Any], Any]:
+def _power(sheet: Sheet, base: Node, exponent: Node) -> Node:
+    """Node of a power; numbers as exponents are parts of products."""
+    if exponent.kind != "number" or base.kind == "number":
+        return sheet.call("Pow", *(Quantity(sheet, each) for each in (base, exponent))).node
+    number = exponent.content[0]
+    return sheet.graph.product([(base, int(number) if number == int(number) else number)])
+
+
+def _compared(sign: str) -> Callable[[Quantity, Any], Any]:
     def method(self: Quantity, other: Any) -> Any:
         if not _is_scalar(other):
             return NotImplemented
-        a, b = (other, self) if swapped else (self, other)
         if isinstance(other, float | np.floating) and not math.isfinite(other):        # quantities are finite
-            return SIGNS[sign](other, 0.0) if swapped else SIGNS[sign](0.0, other)
-        return self.tape.add("comparison", sign, self.tape.operand(a), self.tape.operand(b))
+            return SIGNS[sign](0.0, float(other))
+        a, b = map(self.sheet.node, (self, other))
+        if a.kind == b.kind == "number":
+            return SIGNS[sign](a.content[0], b.content[0])
+        if sign in (">", ">="):     # one form of each
+            return Quantity(self.sheet, self.sheet.graph.comparison("<=" if sign == ">=" else "<", b, a))
+        return Quantity(self.sheet, self.sheet.graph.comparison(sign, a, b))
     return method
 
 
 def _joined(word: str) -> Callable[[Quantity, Any], Any]:
     def method(self: Quantity, other: Any) -> Any:
-        if not isinstance(other, Quantity):
-            if not isinstance(other, bool | np.bool_):
-                return NotImplemented
+        if isinstance(other, bool | np.bool_):
             return self if other == (word == "and") else bool(other)
-        return self.tape.add("logic", word, self.as_condition().number, other.as_condition().number)
+        if not isinstance(other, Quantity):
+            return NotImplemented
+        return Quantity(self.sheet, self.sheet.graph.logic(word, self.as_condition().node, other.as_condition().node))
     return method
 
 
@@ -103,56 +114,66 @@ def _converted(*_: Any) -> Any:
 
 
 class Quantity:
-    """Result of an operation of a tape, in place of a float; conditions are quantities, too."""
+    """Node in place of a float; conditions are quantities, too."""
 
-    __slots__ = ("number", "tape")
+    __slots__ = ("node", "sheet")
     __hash__ = None     # type: ignore[assignment]
 
-    def __init__(self, tape: Tape, number: int) -> None:
-        self.tape, self.number = tape, number
+    def __init__(self, sheet: Sheet, node: Node) -> None:
+        self.sheet, self.node = sheet, node
 
     @property
     def is_condition(self) -> bool:
-        return self.tape.operations[self.number][0] in ("comparison", "logic")
+        return self.node.kind in ("comparison", "logic")
+
+    @property
+    def is_leaf(self) -> bool:
+        """True of t, measures and parameters, which are finite."""
+        return self.node.kind == "leaf"
 
     def as_condition(self) -> Quantity:
         """The condition that it is, or that it is not zero."""
         return self if self.is_condition else self != 0
 
     def __bool__(self) -> bool:
-        return self.tape.decide(self.as_condition().number)
+        condition = self.as_condition()
+        return self.sheet.decide(condition.node) if isinstance(condition, Quantity) else condition
 
-    __add__, __radd__ = _binary("+"), _binary("+", swapped=True)
-    __sub__, __rsub__ = _binary("-"), _binary("-", swapped=True)
-    __mul__, __rmul__ = _binary("*"), _binary("*", swapped=True)
-    __truediv__, __rtruediv__ = _binary("/"), _binary("/", swapped=True)
-    __pow__, __rpow__ = _binary("power"), _binary("power", swapped=True)
-    __lt__, __le__, __gt__, __ge__ = (_compared("<"), _compared("<="), _compared("<", swapped=True), _compared("<=", swapped=True))
-    __eq__, __ne__ = _compared("=="), _compared("!=")       # type: ignore[assignment]
+    __add__ = __radd__ = _binary(lambda sheet, a, b: sheet.graph.plus(a, b))
+    __mul__ = __rmul__ = _binary(lambda sheet, a, b: sheet.graph.times(a, b))
+    __sub__, __rsub__ = (_binary(lambda sheet, a, b: sheet.graph.sum([(a, 1), (b, -1)]), swapped=swapped) for swapped in (False, True))
+    __truediv__, __rtruediv__ = (_binary(lambda sheet, a, b: sheet.graph.product([(a, 1), (b, -1)]), swapped=swapped)
+                                 for swapped in (False, True))
+    __pow__, __rpow__ = (_binary(_power, swapped=swapped) for swapped in (False, True))
+    __lt__, __le__, __gt__, __ge__, __eq__, __ne__ = map(_compared, ("<", "<=", ">", ">=", "==", "!="))   # type: ignore[assignment]
     __and__ = __rand__ = _joined("and")
     __or__ = __ror__ = _joined("or")
     __float__ = __int__ = __index__ = __complex__ = __round__ = __iter__ = __len__ = _converted
+    __str__ = __repr__ = __format__ = _converted
 
-    def __neg__(self) -> Quantity:
-        return self.tape.add("negative", self.tape.operand(self))
+    def __neg__(self) -> Any:
+        return -1 * self
 
     def __pos__(self) -> Quantity:
         return self
 
+    conjugate = __pos__
+    real = property(__pos__)
+
     def __abs__(self) -> Quantity:
-        return self.call("Abs")
+        return self.sheet.call("Abs", self)
 
     def __invert__(self) -> Quantity:
-        return self.tape.add("logic", "not", self.as_condition().number)
+        return Quantity(self.sheet, self.sheet.graph.logic("not", self.as_condition().node))
 
     def __floor__(self) -> Quantity:
-        return self.call("floor")
+        return self.sheet.call("floor", self)
 
     def __ceil__(self) -> Quantity:
-        return self.call("ceiling")
+        return self.sheet.call("ceiling", self)
 
     def __trunc__(self) -> Quantity:
-        return self.tape.choice(self < 0, self.call("ceiling"), self.call("floor"))
+        return where(self < 0, math.ceil(self), math.floor(self))
 
     def __mod__(self, y: Any) -> Any:
         return remainder(self, y) if _is_scalar(y) else NotImplemented
@@ -169,20 +190,10 @@ class Quantity:
     def __divmod__(self, y: Any) -> Any:
         return self // y, self % y
 
-    def call(self, name: str, *others: Any) -> Quantity:
-        """Function of the graph, of this and others."""
-        return self.tape.add("call", name, *map(self.tape.operand, (self, *others)))
-
     def read(self, table: Any) -> Quantity:
         """Value of a table."""
-        return self.tape.add("spline", table, self.tape.operand(self))
-
-    def conjugate(self) -> Quantity:
-        return self
-
-    @property
-    def real(self) -> Quantity:
-        return self
+        graph = self.sheet.graph
+        return Quantity(self.sheet, graph.call(SPLINE, leaf(graph, table), self.sheet.node(self), graph.zero))
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **more: Any) -> Any:
         return _applied(ufunc, method, inputs, more)
@@ -252,14 +263,10 @@ def _called(function: Any, inputs: tuple[Any, ...], more: dict[str, Any]) -> Any
 
 # ---- functions ----
 
-def _tape(*x: Any) -> Tape:
-    return next(each.tape for each in x if isinstance(each, Quantity))
-
-
 def where(condition: Any, value: Any, otherwise: Any) -> Any:
     """`value` where the condition holds, `otherwise` elsewhere, entry by entry."""
     def one(condition: Any, value: Any, otherwise: Any) -> Any:
-        return condition.tape.choice(condition, value, otherwise) if isinstance(condition, Quantity) else (
+        return condition.sheet.choice(condition, value, otherwise) if isinstance(condition, Quantity) else (
             value if condition else otherwise)
     parts = condition, value, otherwise
     return one(*parts) if all(map(_is_scalar, parts)) else of_array(np.frompyfunc(one, 3, 1)(*map(_objects, parts)))
@@ -289,8 +296,7 @@ def quotient(x: Any, y: Any) -> Any:
 
 def function(name: str, *x: Any) -> Any:
     """Function of the graph."""
-    tape = _tape(*x)
-    return tape.add("call", name, *map(tape.operand, x))
+    return next(each.sheet for each in x if isinstance(each, Quantity)).call(name, *x)
 
 
 def _clip(x: Any, low: Any = None, high: Any = None, **more: Any) -> Any:
@@ -329,11 +335,8 @@ UFUNCS: dict[str, Callable[..., Any]] = {
     "logical_and": operator.and_, "logical_or": operator.or_, "logical_not": operator.invert, "bitwise_and": operator.and_,
     "bitwise_or": operator.or_, "invert": operator.invert, "exp2": lambda x: 2 ** x, "deg2rad": lambda x: x * (math.pi / 180),
     "radians": lambda x: x * (math.pi / 180), "rad2deg": lambda x: x * (180 / math.pi), "degrees": lambda x: x * (180 / math.pi),
-    "copysign": lambda x, y: where(y < 0, -abs(x), abs(x)), "conjugate": lambda x: x, "isnan": lambda x: False,
-    "isfinite": lambda x: True, "isinf": lambda x: False,
-    **{name: _named(of or name) for name, of in {
-        "sin": "", "cos": "", "tan": "", "arcsin": "asin", "arccos": "acos", "arctan": "atan", "arctan2": "atan2", "sinh": "",
-        "cosh": "", "tanh": "", "arcsinh": "asinh", "arccosh": "acosh", "arctanh": "atanh", "exp": "", "expm1": "", "log": "",
-        "log1p": "", "log2": "", "log10": "", "hypot": ""}.items()}}
+    "copysign": lambda x, y: where(y < 0, -abs(x), abs(x)), "conjugate": lambda x: x, "isnan": lambda x: False if x.is_leaf else x != x,  # noqa: PLR0124
+    "isfinite": lambda x: True if x.is_leaf else abs(x) <= LARGEST, "isinf": lambda x: False if x.is_leaf else abs(x) > LARGEST,
+    **{of: _named(name) for name, of in IN_NUMPY.items()}}
 UFUNCS |= {"fmax": UFUNCS["maximum"], "fmin": UFUNCS["minimum"]}
 CALLS: dict[str, Callable[..., Any]] = {"where": where, "clip": _clip, "select": _select}

@@ -9,17 +9,19 @@ from __future__ import annotations
 import itertools
 import math
 import random
-from collections.abc import Callable, Mapping, Sequence
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from .formula import Evaluation, Formula, Operation
+from ..symbolics.graph.graph import Node
+from .formula import Evaluation, Formula, Operation, operations
 from .outside import Outside
-from .quantities import Quantity, Tape, Unrecorded, of_array
+from .quantities import Quantity, Sheet, Unrecorded, of_array
 
 MAX_PATHS = 64
-POINTS = 3          # of each path, at which the formula is compared with the function
+POINTS, BORDERS = 3, 12     # points of each path at which the formula is compared with the function; of one with jumps
 ATTEMPTS = 2000     # points that are tried for these
 ROUNDING = 1e-12    # of the largest operand
 
@@ -27,7 +29,7 @@ ROUNDING = 1e-12    # of the largest operand
 class Branch(NamedTuple):
     """Condition, and what follows where it holds and where not: branches, or at last the path's number."""
 
-    condition: int
+    condition: Node
     yes: Branch | int
     no: Branch | int
 
@@ -39,16 +41,17 @@ def record(given: Callable[..., Any], names: Sequence[str], parameters: Mapping[
     `last` is its formula at an earlier time, which is compared already.
     """
     try:
-        formula, tree, paths = _formula(given, names)
+        result, tree, paths = _followed(given, names)
+        formula = Formula.of(result)
         if formula == last:
             return formula, ""
-        if formula != _formula(given, names)[0]:
+        if formula != Formula.of(_followed(given, names)[0]):
             raise Unrecorded("is different at each call")
-        _compare(given, formula, tree, paths, names, parameters)
+        _compare(given, result, tree, paths, names, parameters)
     except Unrecorded as error:
         return None, str(error)
     except Exception as error:      # of objects that are not as others
-        return None, f"cannot be copied, which raises {type(error).__name__}"
+        return None, f"raises {type(error).__name__} while it is copied"
     return formula, ""
 
 
@@ -57,32 +60,34 @@ def record(given: Callable[..., Any], names: Sequence[str], parameters: Mapping[
 class _Paths:
     """Exploration of a function's paths."""
 
-    def __init__(self, function: Callable[..., Any], names: Sequence[str]) -> None:
-        self._function, self._names, self.count = function, names, 0
-        self.tape = Tape(self._decide)
-        self._forced: list[tuple[int, bool]] = []
-        self._taken: list[tuple[int, bool]] = []
+    def __init__(self, given: Callable[..., Any], names: Sequence[str]) -> None:
+        self._outside, self._names, self.count = Outside(), names, 0
+        self._function = self._outside.of(given)
+        self._sheet = Sheet(self._decide)
+        self._forced: list[tuple[Node, bool]] = []
+        self._taken: list[tuple[Node, bool]] = []
 
-    def follow(self, forced: list[tuple[int, bool]]) -> tuple[int, Branch | int]:
-        """Operation of the result after these decisions, and the tree of the paths."""
-        number, self.count = self.count, self.count + 1
+    def follow(self, forced: list[tuple[Node, bool]]) -> tuple[Node, Branch | int]:
+        """Node of the result after these decisions, and the tree of the paths."""
+        tree: Branch | int = self.count
+        self.count += 1
         if self.count > MAX_PATHS:
             raise Unrecorded(f"has more than {MAX_PATHS} paths")
         self._forced, self._taken = forced, []
-        result = self.tape.operand(_scalar(self._run()))
-        taken, tree = self._taken, number
+        result = self._sheet.node(_scalar(self._run()))
+        taken = self._taken
         if taken[:len(forced)] != forced:
             raise Unrecorded("is different at each call")
-        found: tuple[int, Branch | int] = result, tree
+        if changed := self._outside.changed():
+            raise Unrecorded(f"changes a {changed}")
         for i in reversed(range(len(forced), len(taken))):
-            condition, decision = taken[i]
-            other = self.follow([*taken[:i], (condition, not decision)])
-            value = self.tape.choice(Quantity(self.tape, condition), *(Quantity(self.tape, each) for each in (found[0], other[0])))
-            found = value.number, Branch(condition, found[1], other[1])
-        return found
+            condition = taken[i][0]
+            other, branch = self.follow([*taken[:i], (condition, False)])
+            result, tree = self._sheet.graph.choice(((condition, result),), other), Branch(condition, tree, branch)
+        return result, tree
 
     def _run(self) -> Any:
-        leaves = {name: self.tape.add("leaf", name) for name in self._names}
+        leaves = {name: self._sheet.leaf(name) for name in self._names}
         try:
             with np.errstate(all="ignore"):
                 return self._function(*leaves.values()) if isinstance(self._function, np.ufunc) else self._function(**leaves)
@@ -93,30 +98,30 @@ class _Paths:
         except Exception as error:
             raise Unrecorded(f"raises {type(error).__name__} on one of its paths: {str(error)[:80]}") from None
 
-    def _decide(self, condition: int) -> bool:
+    def _decide(self, condition: Node) -> bool:
         known = self._known(condition)
         if known is not None:
             return known
         number = len(self._taken)
         decision = self._forced[number][1] if number < len(self._forced) else True
-        if number > MAX_PATHS * 16:
-            raise Unrecorded("has a loop whose length depends on a value")
+        if number >= MAX_PATHS:     # each decision has a path of its own
+            raise Unrecorded(f"has more than {MAX_PATHS} paths")
         self._taken.append((condition, decision))
         return decision
 
-    def _known(self, condition: int) -> bool | None:
+    def _known(self, condition: Node) -> bool | None:
         """Decision that follows from earlier ones; None if it is open."""
         for earlier, decision in self._taken:
-            if earlier == condition:
+            if earlier is condition:
                 return decision
-        bound = self._bound(condition)
+        bound = _bound(condition)
         if bound is None:
             return None
         subject, sign, number, is_left = bound
         low, high, low_open, high_open, apart = -math.inf, math.inf, False, False, set[float]()
         for earlier, decision in self._taken:
-            other = self._bound(earlier)
-            if other is None or other[0] != subject:
+            other = _bound(earlier)
+            if other is None or other[0] is not subject:
                 continue
             _, of, at, left = other
             if of in ("==", "!="):
@@ -132,16 +137,16 @@ class _Paths:
                 low, low_open = at, is_open
         return _decided(sign, number, is_left, (low, high, low_open, high_open), apart)
 
-    def _bound(self, condition: int) -> tuple[int, str, float, bool] | None:
-        """Comparison with a number: the operation, sign, number, and whether the number is on the right; None for others."""
-        operation = self.tape.operations[condition]
-        if operation[0] != "comparison":
-            return None
-        sign, a, b = operation[1:]
-        for subject, number, is_left in ((a, b, True), (b, a, False)):
-            if self.tape.operations[number][0] == "number":
-                return subject, sign, float(self.tape.operations[number][1]), is_left
+
+def _bound(condition: Node) -> tuple[Node, str, float, bool] | None:
+    """Comparison with a number: the node, sign, number, and whether the number is on the right; None for others."""
+    if condition.kind != "comparison":
         return None
+    sign, a, b = condition.content
+    for subject, number, is_left in ((a, b, True), (b, a, False)):
+        if number.kind == "number":
+            return subject, sign, float(number.content[0]), is_left
+    return None
 
 
 def _decided(sign: str, number: float, is_left: bool, interval: tuple[float, float, bool, bool], apart: set[float]) -> bool | None:
@@ -172,77 +177,115 @@ def _scalar(result: Any) -> Any:
     return result
 
 
-def _formula(given: Callable[..., Any], names: Sequence[str]) -> tuple[Formula, Branch | int, int]:
-    """Formula, tree of paths, and their number."""
-    outside = Outside()
-    paths = _Paths(outside.of(given), names)
-    result, tree = paths.follow([])
-    if changed := outside.changed():
-        raise Unrecorded(f"changes a {changed}")
-    return Formula(paths.tape.operations, result), tree, paths.count
+def _followed(given: Callable[..., Any], names: Sequence[str]) -> tuple[Node, Branch | int, int]:
+    """Node of the result, tree of paths, and their number."""
+    paths = _Paths(given, names)
+    return *paths.follow([]), paths.count
 
 
 # ---- comparison with the function ----
 
-def _compare(given: Callable[..., Any], formula: Formula, tree: Branch | int, paths: int, names: Sequence[str],
+def _compare(given: Callable[..., Any], result: Node, tree: Branch | int, paths: int, names: Sequence[str],
              parameters: Mapping[str, float]) -> None:
     """Check that the formula has the function's values at points of every path, and at borders."""
-    open_paths = dict.fromkeys(range(paths), POINTS)
-    for attempt, point in enumerate(_points(formula.operations, names, parameters)):
+    conditions = [*_conditions(tree)]
+    found, (last, *places) = operations([result, *conditions])
+    numbers = dict(zip(conditions, places, strict=True))
+    wanted = POINTS if all(kind in ("leaf", "number", "sum", "product") for kind, _ in found) else BORDERS
+    open_paths = dict.fromkeys(range(paths), wanted)
+    for attempt, point in enumerate(_points(found, names, parameters)):
         if not open_paths or attempt >= ATTEMPTS:
             break
-        evaluation = Evaluation(formula.operations, point)
+        evaluation = Evaluation(found, point)
         try:
             path = tree
             while isinstance(path, Branch):
-                path = path.yes if evaluation(path.condition) else path.no
-            if path not in open_paths and attempt > POINTS * 16:
+                path = path.yes if evaluation(numbers[path.condition]) else path.no
+            if path not in open_paths:
                 continue
-            value = float(evaluation(formula.result))
+            value = float(evaluation(last))
         except (ArithmeticError, ValueError):       # beyond a table, for example
             continue
-        if not math.isfinite(value):
-            continue
-        _check(given, point, value, max(abs(float(each)) for each in evaluation.values.values()))
-        if open_paths.get(path, 0) > 1:
+        sizes = [abs(each) for each in evaluation.values.values() if isinstance(each, int | float)]
+        _check(given, point, value, max(size for size in sizes if size == size))
+        if math.isfinite(value):
             open_paths[path] -= 1
-        else:
-            open_paths.pop(path, None)
-    if len(open_paths) == paths and paths == 1 and open_paths[0] == POINTS:
-        raise Unrecorded("has no value at the points that were tried")
-    if paths > 1 and any(left == POINTS for left in open_paths.values()):
-        raise Unrecorded("has a path that no point was found for")
+            open_paths = {path: left for path, left in open_paths.items() if left}
+    if any(left > wanted - POINTS for left in open_paths.values()):
+        raise Unrecorded("has a path that no point was found for" if paths > 1 else "has no value at the points that were tried")
+
+
+def _conditions(tree: Branch | int) -> dict[Node, None]:
+    return {tree.condition: None, **_conditions(tree.yes), **_conditions(tree.no)} if isinstance(tree, Branch) else {}
 
 
 def _check(given: Callable[..., Any], point: Mapping[str, float], value: float, largest: float) -> None:
+    """Check the formula's value at a point; where it is not finite, the function's must not be either.
+
+    Python's division by zero raises where the quotient is infinite, and what follows may be finite.
+    """
     try:
-        with np.errstate(all="ignore"):
+        with np.errstate(all="ignore"), warnings.catch_warnings():
+            warnings.simplefilter("ignore")
             expected = given(*point.values()) if isinstance(given, np.ufunc) else given(**point)
         expected = float(expected)
+    except (ZeroDivisionError, OverflowError):
+        return
     except Exception as error:
+        if not math.isfinite(value):
+            return
         raise Unrecorded(f"raises {type(error).__name__} where its formula has a value") from None
-    if not abs(value - expected) <= ROUNDING * max(largest, abs(expected)):
+    if math.isfinite(expected) if not math.isfinite(value) else not abs(value - expected) <= ROUNDING * max(largest, abs(expected)):
         raise Unrecorded("has other values with numbers than while it is recorded")
 
 
-def _points(operations: Sequence[Operation], names: Sequence[str], parameters: Mapping[str, float]) -> Any:
-    """Points: random ones of several sizes, and such whose coordinates are the formula's own numbers, or near them or between."""
+def _points(operations: Sequence[Operation], names: Sequence[str], parameters: Mapping[str, float]) -> Iterator[dict[str, float]]:
+    """Points: random ones of several sizes; or borders of the name, the formula's own numbers, or numbers near or between them."""
     chance = random.Random(0)
-    numbers = sorted({float(operation[1]) for operation in operations if operation[0] == "number"} | {0.0, 1.0})
+    numbers = sorted({float(number) for number in _numbers(operations)} | {0.0, 1.0})
     between = [(a + b) / 2 for a, b in itertools.pairwise(numbers)]
     near = [factor * number for number in numbers for factor in (-1.0, 0.9, 1.1, -0.9, -1.1)]
     pool = [*numbers, *between, *near, numbers[0] - 1.0, numbers[-1] + 1.0]
-    for table in {operation[1] for operation in operations if operation[0] == "spline"}:
-        pool += [float(x) for x in np.linspace(table.x[0], table.x[-1], 7)]
-    measured = [name for name in names if name not in parameters]
+    for table in Formula(operations).tables:
+        pool += np.linspace(table.x[0], table.x[-1], 7).tolist()
+    borders = _borders(operations)
 
-    def random_number() -> float:
+    def number(name: str) -> float:
+        if name in borders and chance.random() < 0.4:
+            return chance.choice(borders[name]) + chance.choice([0.0, 0.0, 1e-9, -1e-9])
         if chance.random() < 0.5:
             return chance.choice(pool)
         return chance.choice([-1, 1]) * 10 ** chance.uniform(-2, 1.5 if chance.random() < 0.8 else 4)
 
     while True:
-        yield {**{name: float(parameters[name]) for name in names if name in parameters},
-               **{name: random_number() for name in measured}}
+        yield {name: float(parameters[name]) if name in parameters else number(name) for name in names}
 
 
+def _numbers(operations: Sequence[Operation]) -> Iterator[Any]:
+    for kind, content in operations:
+        if kind == "number":
+            yield content
+        elif kind == "sum":
+            yield from (number for each, number in content)
+
+
+def _borders(operations: Sequence[Operation]) -> dict[str, list[float]]:
+    """Values of names at which a comparison of one alone changes."""
+    found: dict[str, list[float]] = {}
+    forms = list[tuple[str, float, float] | None]()     # a name times a number, plus another, or None
+    for kind, content in operations:
+        form = None
+        if kind == "leaf" and isinstance(content, str):
+            form = content, 1.0, 0.0
+        elif kind == "number":
+            form = "", 0.0, float(content)
+        elif kind == "sum" and all(forms[each] for each, _ in content):
+            parts = [(*forms[each], float(number)) for each, number in content]     # type: ignore[misc]
+            if len({name for name, *_ in parts} - {""}) == 1:
+                form = (max(name for name, *_ in parts), *(sum(part[k] * part[3] for part in parts) for k in (1, 2)))
+        elif kind == "comparison" and (a := forms[content[1]]) and (b := forms[content[2]]) and len({a[0], b[0]} - {""}) == 1:
+            slope = a[1] - b[1]
+            if slope:
+                found.setdefault(a[0] or b[0], []).append((b[2] - a[2]) / slope)
+        forms.append(form)
+    return found

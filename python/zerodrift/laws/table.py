@@ -104,7 +104,7 @@ class Table:
 
     def __call__(self, *given: Any, **named: Any) -> Any:
         at, = (*given, *named.values())
-        if hasattr(at, "tape"):     # while a function that reads the table is recorded
+        if hasattr(at, "sheet"):     # while a function that reads the table is recorded
             return at.read(self)
         value = float(autodiff.value(at))
         if not self.x[0] - self._allowed <= value <= self.x[-1] + self._allowed:

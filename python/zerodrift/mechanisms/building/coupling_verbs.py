@@ -8,9 +8,9 @@ from typing import Any
 from ..._private import checks
 from ..._private.types import ArrayLike, Bindings, LawLike, Values
 from ...errors import WrongType, WrongValue
+from ...laws.formula import Formula, of_expression
 from ..elements.joints import Coupling, Joint
 from ..elements.measures import Measure, name_of
-from ..elements.user_functions import Law
 from ..equations.measure_names import checked_reading
 from .periodic_spline import PeriodicSpline
 from .registry import Elements
@@ -191,8 +191,8 @@ class CouplingVerbs(Elements):
             if len(profile) != 2:
                 raise WrongValue(f"profile of {name!r} must be (angles, values), not {len(profile)} things", "shape")
             profile = PeriodicSpline(f"profile of {name!r}", *profile)
-        elif hasattr(profile, "free_symbols"):
-            profile = _Expression(name, profile)
+        elif isinstance(profile, Formula) or hasattr(profile, "free_symbols"):
+            profile = _Profile(f"profile of {name!r}", profile)
         elif not callable(profile):
             raise WrongType(f"profile of {name!r} must be a callable, a SymPy expression or (angles, values), "
                             f"not {checks.shown(profile)}")
@@ -290,7 +290,6 @@ class _Follows:
 
     def __init__(self, profile: Any) -> None:
         self.profile = profile
-        self.inner_expression = profile.expression if isinstance(profile, _Expression) else None
 
     def __call__(self, angle: Any, follower: Any) -> Any:
         return follower - self.profile(angle)
@@ -302,29 +301,18 @@ class _Follows:
         return lambda equations, angle, follower: equations.difference(follower, profile(equations, angle))
 
 
-class _Expression:
-    """A SymPy expression of one symbol as a callable."""
+class _Profile:
+    """Formula of one name, the angle, as a callable."""
 
-    def __init__(self, name: str, expression: Any) -> None:
-        if len(expression.free_symbols) != 1:
-            raise WrongValue(f"profile of {name!r} must be an expression of one symbol, the angle, not of "
-                             f"{', '.join(sorted(map(str, expression.free_symbols))) or 'none'}", "expression")
-        self._law = Law(f"profile of {name!r}", expression.subs(next(iter(expression.free_symbols)), _time()))
-
-    @property
-    def expression(self) -> Any:
-        """SymPy expression in its symbol t."""
-        return self._law.expression
+    def __init__(self, what: str, given: Any) -> None:
+        self.formula = given if isinstance(given, Formula) else of_expression(what, given)
+        if len(self.formula.names) != 1:
+            raise WrongValue(f"{what} must be an expression of one symbol, the angle, not of "
+                             f"{', '.join(sorted(self.formula.names)) or 'none'}", "expression")
 
     def __call__(self, angle: Any) -> Any:
-        return self._law.value(angle, (), {})
+        return self.formula.value({self.formula.names[0]: angle})
 
     def written(self, equations: Any, angle: Any) -> Any:
         """Node of the result, from the node of the angle."""
-        return equations.read(self._law.what, self.expression, dict.fromkeys(self.expression.free_symbols, angle))
-
-
-def _time() -> Any:
-    import sympy as sp
-
-    return sp.Symbol("t")
+        return self.formula.written(equations, {self.formula.names[0]: angle})

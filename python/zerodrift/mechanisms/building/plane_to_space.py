@@ -16,7 +16,7 @@ from ..elements.joints import Joint
 from ..elements.space_joints import BY_KIND
 from ..elements.table_forces import TableForce
 from ..elements.user_functions import Law
-from .coupling_verbs import _Expression, _Follows, _Sum
+from .coupling_verbs import _Profile, _Follows, _Sum
 from .periodic_spline import PeriodicSpline
 from .table_verbs import FORCES, PLANE
 
@@ -108,10 +108,9 @@ def _law(m: Any, law: Law) -> dict[str, Any]:
     if law.constant is not None:
         return {"value": law.constant, "of": None}
     bound = {name: _measure(m, measure) for name, measure in law._bound.items()}
-    if law.expression is None:
-        return {"value": law._function, "of": bound}
-    symbols = {symbol: type(symbol)(bound[str(symbol)]) for symbol in law.expression.free_symbols if "." in str(symbol)}
-    return {"value": law.expression.subs(symbols), "of": {name: measure for name, measure in bound.items() if "." not in name}}
+    given = {name: measure for name, measure in bound.items() if "." not in name}
+    return {"value": law._function if law.formula is None or law._function else law.formula.renamed(bound | dict(zip(given, given))),
+            "of": given}
 
 
 def _start(drawing: Drawing, given: Mapping[str, Any]) -> dict[str, Any]:
@@ -203,8 +202,8 @@ def _cam(m: Any, coupling: Any) -> None:
     profile = follows.profile
     if isinstance(profile, PeriodicSpline):
         profile = profile.angles, profile.values
-    elif isinstance(profile, _Expression):
-        profile = profile._law.expression
+    elif isinstance(profile, _Profile):
+        profile = profile.formula
     m.cam(coupling.name, coupling.of[0].rpartition(".")[0], coupling.of[1], profile=profile)
 
 

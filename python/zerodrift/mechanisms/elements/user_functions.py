@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
@@ -11,11 +10,10 @@ from typing import Any
 import numpy as np
 
 from ..._private import checks
-from ...errors import WrongType, WrongValue
+from ...errors import WrongType, WrongValue, sentence
 from ...laws import recording
-from ...laws.formula import Formula
+from ...laws.formula import Formula, of_expression
 from ...laws.table import Table, recognised
-from ...symbolics.graph.smoothness import is_plain_expression
 from ...systems import autodiff
 from ...systems.user_callables import arguments
 from .measures import name_of
@@ -35,7 +33,7 @@ class Law:
     constant : float or None
         Its value where it is a plain number.
     formula : Formula or None
-        What a function computes, where it could be recorded.
+        What an expression is, or what a function computes, where that could be recorded.
     why_called : str
         Reason why a function was not recorded, and is called instead; empty for others.
     """
@@ -44,47 +42,51 @@ class Law:
     is_speed = False
     reactions: Mapping[str, str] = MappingProxyType({})
     formula: Formula | None = None
+    constant: float | None = None
     why_called = ""
 
     def __init__(self, what: str, given: Any, *, of: Mapping[str, Any] | None = None,
                  parameters: Mapping[str, float] = MappingProxyType({})) -> None:
-        self.what, self.constant, self.expression = what, None, None
+        self.what = what
         self._function: Any = None
-        given = recognised(given)
         bound = {name: name_of(measure, f"of[{name!r}]") for name, measure in _of(what, of).items()}
-        if callable(given):
-            self._names = _wanted(what, given, ["t", *parameters, *bound])
-            self._function, self._bound = given, {name: bound[name] for name in self._names if name in bound}
-            self.record(parameters)
-        elif hasattr(given, "free_symbols"):
-            self._read_expression(given, bound, list(parameters))
+        given = recognised(given)
+        if hasattr(given, "free_symbols"):
+            given = self._read(given)
+        if isinstance(given, Formula | Expression):
+            self._names = [self._wanted(name, bound, parameters) for name in sorted(given.names)]
+            self.formula, self._function = (given, None) if isinstance(given, Formula) else (None, given)
+        elif callable(given):
+            self._names, self._function = _wanted(what, given, ["t", *parameters, *bound]), given
         elif isinstance(given, tuple | list | dict) or np.ndim(given):
             raise WrongType(f"{what} must be a number, a function, an expression of SymPy, or zd.table(t, y) of data, "
                             f"not {checks.shown(given)}")
         else:
-            self.constant, self._names, self._bound = checks.number(what, given), [], {}
+            self.constant, self._names = checks.number(what, given), []
+        self._bound = {name: bound.get(name, name) for name in self._names if name in bound or "." in name}
         self.measures = tuple(self._bound.values())
         self.depends_on_time = "t" in self._names
+        self.record(parameters)
+
+    def _read(self, expression: Any) -> Formula | Expression:
+        """Formula of an expression of SymPy; one with a function that the core lacks is called."""
+        try:
+            return of_expression(self.what, expression)
+        except WrongValue as error:
+            self.why_called = sentence(error)
+            return Expression(expression)
+
+    def _wanted(self, name: str, bound: Mapping[str, str], parameters: Mapping[str, float]) -> str:
+        """Name of an expression, checked; those in `of` stand for their measures."""
+        if name != "t" and "." not in name and name not in bound and name not in parameters:
+            raise WrongType(f"{self.what} asks for {name!r}; there is {', '.join(['t', *parameters, *bound])}, and measures",
+                            "user-function")
+        return name
 
     def record(self, parameters: Mapping[str, float]) -> None:
         """Record a function; numbers that it reads from outside count as they are now."""
         if self._function is not None and not hasattr(self._function, "written") and not self.why_called:
             self.formula, self.why_called = recording.record(self._function, self._names, parameters, self.formula)
-
-    def _read_expression(self, expression: Any, bound: dict[str, str], parameters: list[str]) -> None:
-        """Read an expression of t, parameters and measures; names in `of` stand for their measures."""
-        self.expression = expression
-        self._names, self._bound = [], {}
-        for symbol in sorted(expression.free_symbols, key=str):
-            name = str(symbol)
-            if "." in name:
-                self._bound[name] = name
-            elif name in bound:
-                self._bound[name] = bound[name]
-            elif name != "t" and name not in parameters:
-                raise WrongType(f"{self.what} asks for {name!r}; there is {', '.join(['t', *parameters, *bound])}, and measures",
-                                "user-function")
-            self._names.append(name)
 
     def read(self, reactions: Iterable[str]) -> None:
         """Take these of its measures as reactions."""
@@ -101,23 +103,15 @@ class Law:
         """All its arguments by their own names."""
         return {**parameters, "t": t, **dict(zip((*self._picked, *self.reactions), x, strict=True))}
 
-    @functools.cached_property
-    def _call(self) -> Callable[..., Any]:
-        """Function of `names`, in their order."""
-        if self.formula is not None:
-            return lambda *values: self.formula.value(dict(zip(self._names, values, strict=True)))
-        if self.expression is None:
-            return lambda *values: self._function(**dict(zip(self._names, values, strict=True)))
-        by_name = {str(symbol): symbol for symbol in self.expression.free_symbols}
-        return function_of([by_name[name] for name in self._names], self.expression)
-
     def value(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> Any:
         """Value at a time and values of its measures; with derivatives (`autodiff.Jet`) if these have them."""
         if self.constant is not None:
             return self.constant
         known = self._known(t, x, parameters)
         try:
-            return self._call(*(known[name] for name in self._names))
+            if self.formula is not None:
+                return self.formula.value(known)
+            return self._function(**{name: known[name] for name in self._names})
         except BaseException as error:
             checks.tell(error, f"in {self.what}, called at t = {autodiff.value(t):g}")
             raise
@@ -152,38 +146,19 @@ class Law:
         return True
 
     @property
-    def inner_expression(self) -> Any:
-        """The SymPy expression that it is, or that it contains; None if there is none."""
-        return getattr(self._function, "inner_expression", None) if self.expression is None else self.expression
-
-    @property
     def is_plain(self) -> bool:
         """True if it depends on no measure, or is a polynomial of measures and of sines and cosines of them."""
-        if not self.measures:
-            return True
-        if self.formula is not None:
-            return self.formula.is_plain(set(self._picked))
-        return self.expression is not None and is_plain_expression(self.expression, set(self._picked))
+        return not self.measures or (self.formula is not None and self.formula.is_plain(set(self._picked)))
 
     @property
     def names(self) -> tuple[str, ...]:
         """Names of its arguments: t, parameters, and its own names of measures and reactions."""
         return tuple(self._names)
 
-    @property
-    def kind(self) -> tuple[Any, ...]:
-        """Everything that its node depends on except that expression and its measures."""
-        return type(self._function), self.names, tuple(self._bound), tuple(self.reactions)
-
-    @property
-    def has_expression(self) -> bool:
-        """True if SymPy must read it before code is generated."""
-        return self.inner_expression is not None
-
     def check_written(self) -> None:
         """Check that code can be generated."""
         if not self.has_nodes:
-            raise WrongValue(f"{self.what} must be a function that can be recorded, for equations to be written of it, and it "
+            raise WrongValue(f"{self.what} must be a function that can be recorded, for equations to be written of it: it "
                              f"{self.why_called}", "not-portable")
 
     @property
@@ -203,13 +178,32 @@ class Law:
         known = self._known(equations.t, x, equations.parameters)
         if self.constant is not None:
             return equations.graph.number(self.constant)
-        if self.expression is not None:
-            return equations.read(self.what, self.expression, {each: known[str(each)] for each in self.expression.free_symbols})
         named = {name: known[name] for name in self._names}
         return self._function.written(equations, **named) if self.formula is None else self.formula.written(equations, named)
 
+
+class Expression:
+    """Expression of SymPy with a function that the core lacks, as a function of its names."""
+
+    def __init__(self, expression: Any) -> None:
+        self.expression = expression
+
+    @property
+    def names(self) -> list[str]:
+        """Names of its symbols."""
+        return [str(symbol) for symbol in self.expression.free_symbols]
+
+    @functools.cached_property
+    def _call(self) -> Callable[..., Any]:
+        import sympy
+
+        return sympy.lambdify(list(self.expression.free_symbols), self.expression)
+
+    def __call__(self, **x: Any) -> Any:
+        return self._call(*(x[name] for name in self.names))
+
     def __getstate__(self) -> dict[str, Any]:
-        return {name: value for name, value in vars(self).items() if name != "_call"}
+        return {"expression": self.expression}
 
 
 class InputLaw:
@@ -223,10 +217,9 @@ class InputLaw:
     measures: tuple[str, ...] = ()
     reactions: Mapping[str, str] = MappingProxyType({})
     names: tuple[str, ...] = ()
-    kind: tuple[Any, ...] = ()
     tables: Sequence[Table] = ()
-    constant = expression = inner_expression = None
-    has_expression, is_plain, has_nodes, why_called = False, True, True, ""
+    constant = formula = None
+    is_plain, has_nodes, why_called = True, True, ""
 
     def __init__(self, name: str, initial: float, *, is_speed: bool) -> None:
         self.what, self.input, self.initial, self.is_speed = f"input {name!r}", name, initial, is_speed
@@ -278,49 +271,3 @@ def _of(what: str, of: Any) -> Mapping[str, Any]:
 def _wanted(what: str, given: Callable[..., Any], allowed: list[str]) -> list[str]:
     """Names of the arguments of a callable; a NumPy function, such as np.sin, is one of t."""
     return ["t"] if isinstance(given, np.ufunc) else arguments(what, given, allowed, ", and what of= binds to measures")
-
-
-def _floor(x: Any) -> float:
-    return float(math.floor(autodiff.value(x)))
-
-
-def _ceiling(x: Any) -> float:
-    return float(math.ceil(autodiff.value(x)))
-
-
-def _remainder(x: Any, divisor: Any) -> Any:
-    return x - divisor * _floor(x / divisor)
-
-
-def _sign(x: Any) -> float:
-    return float(np.sign(autodiff.value(x)))
-
-
-# by SymPy's names, as its printer of Python code writes them
-FUNCTIONS: dict[str, Any] = {
-    "sin": np.sin, "cos": np.cos, "tan": np.tan, "asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "atan2": np.arctan2,
-    "sinh": np.sinh, "cosh": np.cosh, "tanh": np.tanh, "asinh": np.arcsinh, "acosh": np.arccosh, "atanh": np.arctanh,
-    "exp": np.exp, "log": np.log, "sqrt": np.sqrt, "abs": abs, "Abs": abs, "sign": _sign, "min": min, "max": max, "Min": min,
-    "Max": max, "floor": _floor, "ceil": _ceiling, "ceiling": _ceiling, "Mod": _remainder, "pi": np.pi, "e": np.e}
-
-
-@functools.cache
-def _printer() -> Any:
-    """SymPy's printer of Python code, with own functions where Python's differ."""
-    from sympy.printing.lambdarepr import LambdaPrinter
-
-    class Printer(LambdaPrinter):
-        def _print_sign(self, expression: Any) -> str:
-            return f"sign({self._print(expression.args[0])})"
-
-        def _print_Mod(self, expression: Any) -> str:
-            return f"Mod({', '.join(map(self._print, expression.args))})"
-
-    return Printer({"fully_qualified_modules": False, "inline": True, "allow_unknown_functions": True})
-
-
-def function_of(names: Sequence[Any], expression: Any) -> Callable[..., Any]:
-    """Function of these symbols, in their order, from an expression."""
-    import sympy as sp
-
-    return sp.lambdify(names, expression, [FUNCTIONS, "numpy"], printer=_printer())

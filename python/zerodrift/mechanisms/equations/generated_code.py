@@ -14,7 +14,6 @@ import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from functools import cache
-from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -92,7 +91,7 @@ class Written:
         is_in_space = isinstance(core, SpaceCore)
         # Matrices of compiled mechanisms with tables are interpreted: then the end of a table is said.
         self._has_terms = compiles and not laws.tables and (not is_in_space or core.packing is None)
-        reader = _reader(laws)
+        reader = Plain()
         number = nodes.Numbering(reader.graph)
         room, planned = (space_nodes, space_plans.plan_of) if is_in_space else (nodes, plan_of)
         plan = room.with_nodes(planned(core), number)
@@ -101,7 +100,7 @@ class Written:
         self._splines = {self._index[table]: table for table in laws.tables}
         self._values, self._frames = np.array(number.values), room.frames_of(plan)
         self._inputs = range(len(number.values) - len(own), len(number.values)) if has_inputs else range(0)
-        self.key = kept.digest_of(_writing_code(isinstance(reader, Plain)), repr(plan), repr(own), self._sizes,
+        self.key = kept.digest_of(_writing_code(), repr(plan), repr(own), self._sizes,
                                   core.packing is None, _described(laws.rows), compiles)
         self._code = _kept_code(self.key) or self._derive(lambda: room.Equations(plan, reader, self._sizes, laws, own))
         self._library = shared_library.library(self._code.c_source) if self._has_terms else None
@@ -250,15 +249,6 @@ def _pairs(values: np.ndarray, frames: Any) -> np.ndarray:
     return np.stack([values, low_parts_of_frames(frames, values)], axis=-1)
 
 
-def _reader(laws: Laws) -> Any:
-    """Builder of the graph: the one with SymPy if a user function is an expression."""
-    if not any(row.law.has_expression for row in laws.rows):
-        return Plain()
-    from ...symbolics.graph.from_sympy import Reader
-
-    return Reader()
-
-
 # ---- the key ----
 
 _codes: dict[str, Code] = {}
@@ -272,24 +262,19 @@ def _kept_code(key: str) -> Code | None:
 
 
 @cache
-def _writing_code(is_plain: bool) -> str:
-    """Fingerprint of the generating code, including SymPy's version if it is used."""
-    version = "" if is_plain else metadata.version("sympy")
+def _writing_code() -> str:
+    """Fingerprint of the generating code."""
     package = Path(__file__).parents[2]
-    files = [file for room in ("symbolics", "mechanisms") for file in sorted((package / room).rglob("*.py"))]
-    return kept.digest_of(version, [file.read_text(encoding="utf-8") for file in files])
+    files = [file for room in ("symbolics", "mechanisms", "laws") for file in sorted((package / room).rglob("*.py"))]
+    return kept.digest_of([file.read_text(encoding="utf-8") for file in files])
 
 
 def _described(what: Any) -> Any:
     """User functions as JSON: all that their nodes depend on."""
-    if hasattr(what, "free_symbols"):
-        from sympy import srepr
-
-        return srepr(what)
     if isinstance(what, np.ndarray):
         return what.tolist()
     if isinstance(what, Mapping):
-        left_out = {"parameters", "what", "_call", "_spline", *(["_function"] if what.get("formula") else [])}
+        left_out = {"parameters", "what", "_spline", *(["_function"] if what.get("formula") else [])}
         return [[key, _described(value)] for key, value in what.items() if key not in left_out]
     if isinstance(what, list | tuple):
         return [_described(each) for each in what]

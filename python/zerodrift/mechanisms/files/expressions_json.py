@@ -1,196 +1,206 @@
-"""SymPy expressions as JSON: numbers, names of symbols, and lists of an operation and its parts, ``["*", 0.5, ["sin", "t"]]``.
+"""Formulas as JSON: numbers, names, and lists of an operation and its parts, ``["*", 0.5, ["sin", "t"]]``.
 
-They are read without evaluating text as code, and only operations of the table below.
+They are read without evaluating text as code, and only operations of the tables below.
 """
 
 from __future__ import annotations
 
-import functools
 import math
 from collections.abc import Callable, Mapping
+from fractions import Fraction
+from types import MappingProxyType
 from typing import Any
 
 from ...errors import WrongValue
-from ...laws.formula import Formula, operands
+from ...laws.formula import FUNCTIONS, Formula, leaf
+from ...symbolics.graph.graph import Graph, Node
+from ...symbolics.graph.plain_functions import NAMED, SPLINE, Plain, sign
 
-SIGNS = {"+": "Add", "*": "Mul", "^": "Pow", "<": "StrictLessThan", "<=": "LessThan", ">": "StrictGreaterThan",
-         ">=": "GreaterThan", "=": "Equality", "!=": "Unequality", "and": "And", "or": "Or", "not": "Not", "cases": "Piecewise"}
-FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "exp",
-             "log", "Abs", "sign", "Min", "Max", "floor", "ceiling", "Mod", "Heaviside")
+SIGNS = {"<": "<", "<=": "<=", ">": ">", ">=": ">=", "=": "==", "!=": "!="}
+WORDS = {sign: word for word, sign in SIGNS.items()}
+CALLED = tuple(name for name in FUNCTIONS if name != SPLINE.__name__)
 DEEPEST = 100       # nested operations, at most, for Python's stack
-LARGEST = 10**309       # largest whole number, near the largest double
-MAX_WORDS = 100_000     # of a formula
-MAX_BITS = 3000        # bits, at most, of powers of numbers, which SymPy evaluates exactly while reading
-CONSTANTS = {"pi": "pi", "e": "Exp1", "true": "true", "false": "false"}
+MAX_WORDS = 100_000     # of a formula, in which parts that are used twice are written twice
+LARGEST = int(1.7976931348623157e308)      # the largest double
+MAX_BITS = 3000         # bits, at most, of powers of numbers, which are exact
+CONSTANTS = {"pi": math.pi, "e": math.e, "true": True, "false": False}
 
 
-@functools.cache
-def _operations() -> dict[str, Callable[..., Any]]:
-    """Classes of SymPy by their names in files."""
-    import sympy as sp
-
-    return {sign: getattr(sp, name) for sign, name in SIGNS.items()} | {name: getattr(sp, name) for name in FUNCTIONS}
-
-
-@functools.cache
-def _constants() -> dict[str, Any]:
-    import sympy as sp
-
-    return {word: getattr(sp.S, name, None) if name == "Exp1" else getattr(sp, name) for word, name in CONSTANTS.items()}
-
-
-def to_json(expression: Any, what: str) -> Any:
-    """Expression as lists of words and numbers; errors name its owner `what`."""
-    written = _written(expression, what)
-    if _in_order(_written(from_json(written, what), what)) != _in_order(written):
-        raise WrongValue(f"{what} is an expression that would be simplified where it is read, {expression}: it cannot be saved",
-                         "not-portable")
-    return written
-
-
-def _in_order(written: Any) -> Any:
-    """Expression with terms and factors in one order, whatever is assumed of symbols."""
-    if not isinstance(written, list):
-        return written
-    word, *parts = [_in_order(part) for part in written]
-    return [word, *(sorted(parts, key=str) if word in ("+", "*", "and", "or") else parts)]
-
-
-def _written(expression: Any, what: str) -> Any:
-    words = {operation: word for word, operation in _operations().items()}
-    constants = {constant: word for word, constant in _constants().items()}
-    if expression.is_Symbol:
-        return expression.name
-    if expression.is_Integer:
-        return int(expression)
-    if expression.is_Float and math.isfinite(float(expression)):    # a double, as in every run
-        return float(expression)
-    if expression.is_Rational:
-        return ["/", int(expression.p), int(expression.q)]
-    if expression in constants:
-        return [constants[expression]]
-    word = words.get(expression.func)
-    if word is None:
-        raise WrongValue(f"{what} is an expression with {expression.func.__name__}, and cannot be saved: there are "
-                         f"{', '.join(map(str, words.values()))}", "not-portable")
-    if word == "cases":
-        return [word, *([_written(value, what), _written(condition, what)] for value, condition in expression.args)]
-    return [word, *(_written(part, what) for part in expression.args)]
-
-
-def of_formula(formula: Formula, what: str, leaves: Mapping[str, Any]) -> Any:
-    """Formula of a function as lists of words and numbers."""
-    written: list[Any] = []
-    for code, *arguments in formula.operations:
-        parts = [written[each] for each in operands((code, *arguments))]
-        match code:
+def to_json(formula: Formula, what: str, leaves: Mapping[str, Any] = MappingProxyType({})) -> Any:
+    """Formula as lists of words and numbers; `leaves` replace names, and errors name its owner `what`."""
+    written = list[Any]()
+    if formula.tables:
+        raise WrongValue(f"{what} must not read tables, to be saved", "not-portable")
+    for kind, content in formula.operations:
+        match kind:
             case "leaf":
-                made = leaves.get(arguments[0], arguments[0])
+                made = leaves.get(content, content)
             case "number":
-                made = arguments[0]
-            case "-":
-                made = ["+", parts[0], ["*", -1, parts[1]]]
-            case "/":
-                made = ["*", parts[0], ["^", parts[1], -1]]
-            case "negative":
-                made = ["*", -1, parts[0]]
+                made = _number(content)
+            case "sum":
+                made = ["+", *(written[each] if factor == 1 else ["*", _number(factor), written[each]] for each, factor in content)]
+            case "product":
+                made = ["*", *(written[each] if exponent == 1 else ["^", written[each], _number(exponent)]
+                               for each, exponent in content)]
+            case "comparison":
+                made = [WORDS[content[0]], written[content[1]], written[content[2]]]
             case "choice":
-                made = ["cases", [parts[1], parts[0]], [parts[2], ["true"]]]
-            case "call":
-                made = _of_call(arguments[0], parts, what)
-            case "spline":
-                raise WrongValue(f"{what} must not read tables, to be saved", "not-portable")
+                made = ["cases", *([written[value], written[condition]] for condition, value in content[0]),
+                        [written[content[1]], ["true"]]]
             case _:
-                word = arguments[0] if code in ("comparison", "logic") else code
-                made = [{"power": "^", "==": "="}.get(word, word), *parts]
-        written.append(made)
-    result = written[formula.result]
-    if _size(result) > MAX_WORDS:
-        raise WrongValue(f"{what} must have at most {MAX_WORDS} operations, each written where it is used, to be saved",
-                         "not-portable")
-    return result
+                made = [content[0], *(written[each] for each in content[1])]
+        written.append(made[1] if isinstance(made, list) and made[0] in "+*" and len(made) == 2 else made)
+    if _size(written[-1], {}) > MAX_WORDS:
+        raise WrongValue(f"{what} must have at most {MAX_WORDS} words, to be saved", "not-portable")
+    return written[-1]
 
 
-def _of_call(name: str, parts: list[Any], what: str) -> Any:
-    if name == "fmod":      # x less so many times y, towards zero
-        ratio = ["*", parts[0], ["^", parts[1], -1]]
-        whole = ["cases", [["ceiling", ratio], ["<", ratio, 0]], [["floor", ratio], ["true"]]]
-        return ["+", parts[0], ["*", -1, parts[1], whole]]
-    if name == "hypot":
-        return ["^", ["+", *(["^", part, 2] for part in parts)], ["/", 1, 2]]
-    if name in ("log2", "log10"):
-        return ["*", ["log", *parts], 1 / math.log(float(name[3:]))]
-    if name == "expm1":
-        return ["+", ["exp", *parts], -1]
-    if name == "log1p":
-        return ["log", ["+", 1, *parts]]
-    if name not in (*FUNCTIONS, "Pow"):
-        raise WrongValue(f"{what} must not have the function {name}, to be saved", "not-portable")
-    return ["^" if name == "Pow" else name, *parts]
+def _number(value: Any) -> Any:
+    if isinstance(value, Fraction):
+        return ["/", value.numerator, value.denominator]
+    if not math.isfinite(value):    # where an expression has no value
+        return ["nan"]
+    return value
 
 
-def _size(written: Any) -> int:
+def _size(written: Any, sizes: dict[int, int]) -> int:
     """Number of words of an expression whose parts may be shared."""
-    sizes: dict[int, int] = {}
-
-    def of(part: Any) -> int:
-        if not isinstance(part, list):
-            return 1
-        if id(part) not in sizes:
-            sizes[id(part)] = sum(map(of, part))
-        return sizes[id(part)]
-
-    return of(written)
-
-
-def from_json(written: Any, what: str, depth: int = 0) -> Any:
-    """Expression from lists of words and numbers; errors name its owner `what` and the wrong part."""
-    import sympy as sp
-
-    if depth > DEEPEST:
-        raise WrongValue(f"{what} must have at most {DEEPEST} operations within operations", "unreadable-file")
-    if isinstance(written, bool) or written is None or isinstance(written, dict):
-        raise WrongValue(f"{what} has {written!r}, which is not part of an expression", "unreadable-file")
-    if isinstance(written, str):
-        return sp.Symbol(written)
     if not isinstance(written, list):
-        return _integer(written, what) if isinstance(written, int) else sp.Float(written)
-    word, *parts = written or [None]
-    word = word if isinstance(word, str) else str(word)
-    if word in CONSTANTS and not parts:
-        return _constants()[word]
-    if word == "/" and len(parts) == 2 and all(type(part) is int for part in parts) and parts[1]:
-        return sp.Rational(*parts)
-    if word not in _operations():
-        raise WrongValue(f"{what} has the operation {word!r}; there are {', '.join([*_operations(), *CONSTANTS, '/'])}",
-                         "unreadable-file")
-    if word == "cases" and all(isinstance(part, list) and len(part) == 2 for part in parts):
-        read = [tuple(from_json(each, what, depth + 1) for each in part) for part in parts]
-    else:
-        read = [from_json(part, what, depth + 1) for part in parts]
-    if word == "^" and len(read) == 2:
-        _check_power(read[0], read[1], what)
-    try:
-        return _operations()[word](*read)
-    except Exception as error:      # classes of SymPy raise different errors
-        raise WrongValue(f"{what} has the operation {word!r} of {', '.join(map(str, read))}, which cannot be: {error}",
-                         "unreadable-file") from None
+        return 1
+    if id(written) not in sizes:
+        sizes[id(written)] = sum(_size(part, sizes) for part in written)
+    return sizes[id(written)]
 
 
-def _integer(written: int, what: str) -> Any:
-    import sympy as sp
+def from_json(written: Any, what: str) -> Formula:
+    """Formula from lists of words and numbers; errors name its owner `what` and the wrong part."""
+    graph = Plain().graph
+    found = _Reading(graph, what)(written, 0)
+    if not isinstance(found, Node):
+        raise WrongValue(f"{what} must be a number or an expression, not a condition", "unreadable-file")
+    formula = Formula.of(found)
+    for kind, content in formula.operations:
+        for number in [content] if kind == "number" else [factor for _, factor in content] if kind == "sum" else []:
+            if abs(number) > LARGEST:
+                raise WrongValue(f"{what} must have numbers within the range of doubles", "unreadable-file")
+    return formula
 
-    if abs(written) > LARGEST:
-        raise WrongValue(f"{what} must have whole numbers of at most 1e309, not one of {written.bit_length()} bits",
-                         "unreadable-file")
-    return sp.Integer(written)
+
+class _Reading:
+    """Reading of one expression into a graph; conditions that are known are True and False."""
+
+    def __init__(self, graph: Graph, what: str) -> None:
+        self._graph, self._what = graph, what
+
+    def __call__(self, written: Any, depth: int) -> Any:
+        graph, what = self._graph, self._what
+        if depth > DEEPEST:
+            raise WrongValue(f"{what} must have at most {DEEPEST} operations within operations", "unreadable-file")
+        if isinstance(written, str):
+            return leaf(graph, written)
+        if isinstance(written, int | float) and not isinstance(written, bool):
+            return graph.number(written)
+        if not isinstance(written, list):
+            raise WrongValue(f"{what} has {written!r}, which is not part of an expression", "unreadable-file")
+        word, *parts = written or [None]
+        word = word if isinstance(word, str) else str(word)
+        if word in CONSTANTS and not parts:
+            constant = CONSTANTS[word]
+            return constant if isinstance(constant, bool) else graph.number(constant)
+        if word == "nan" and not parts:
+            return graph.number(math.nan)
+        if word == "/" and len(parts) == 2 and all(type(part) is int for part in parts) and parts[1]:
+            return graph.number(Fraction(*parts))
+        if word == "cases" and parts and all(isinstance(part, list) and len(part) == 2 for part in parts):
+            return self._choice([tuple(self(each, depth + 1) for each in part) for part in parts])
+        read = [self(part, depth + 1) for part in parts]
+        if word in ("and", "or", "not"):
+            return self._logic(word, read)
+        if word not in OPERATIONS and word not in SIGNS and word not in CALLED:
+            known = [*OPERATIONS, *SIGNS, *CALLED, "cases", "and", "or", "not", *CONSTANTS, "/"]
+            raise WrongValue(f"{what} has the operation {word!r}; there are {', '.join(known)}", "unreadable-file")
+        if not all(isinstance(part, Node) and part.kind not in ("comparison", "logic") for part in read):
+            raise self._refusal(word)
+        return self._of(word, read)
+
+    def _refusal(self, word: str) -> WrongValue:
+        return WrongValue(f"{self._what} has the operation {word!r} of parts that it cannot have", "unreadable-file")
+
+    def _of(self, word: str, read: list[Node]) -> Node:
+        graph = self._graph
+        self._check_power(word, read)
+        try:
+            if word in SIGNS:
+                a, b = read
+                return graph.comparison(SIGNS[word], a, b)
+            if word in OPERATIONS:
+                return OPERATIONS[word](graph, *read)
+            found = graph.call(NAMED[word], *read)
+            graph.slope(NAMED[word], 0, tuple(read))        # which takes as many arguments
+        except (TypeError, ValueError, OverflowError, ZeroDivisionError):
+            raise self._refusal(word) from None
+        return found
+
+    def _check_power(self, word: str, read: list[Node]) -> None:
+        """Check that a power of numbers does not fill the memory."""
+        if word == "^" and len(read) == 2 and all(node.kind == "number" for node in read):
+            base, exponent = (node.content[0] for node in read)
+            bits = max(abs(base.numerator), base.denominator).bit_length() if isinstance(base, int | Fraction) else 0
+            if bits > 1 and abs(exponent) * bits > MAX_BITS:
+                raise WrongValue(f"{self._what} must not have the power {str(base)[:20]}^{str(exponent)[:20]}, whose digits would "
+                                 "fill the memory", "unreadable-file")
+
+    def _choice(self, cases: list[tuple[Any, Any]]) -> Any:
+        otherwise: Any = self._graph.number(math.nan)
+        read = []
+        for value, condition in cases:
+            if isinstance(condition, Node) and condition.kind not in ("comparison", "logic") or not isinstance(value, Node):
+                raise self._refusal("cases")
+            if condition is True:
+                otherwise = value
+                break
+            read += [(condition, value)] if condition is not False else []
+        return self._graph.choice(tuple(read), otherwise) if read else otherwise
+
+    def _logic(self, word: str, read: list[Any]) -> Any:
+        is_right = all(isinstance(part, bool) or part.kind in ("comparison", "logic") for part in read)
+        if not read or not is_right or (word == "not") > (len(read) == 1):
+            raise self._refusal(word)
+        if word == "not":
+            return not read[0] if isinstance(read[0], bool) else self._graph.logic(word, *read)
+        if (word == "or") in read:
+            return word == "or"
+        open_parts = [part for part in read if not isinstance(part, bool)]
+        return self._graph.logic(word, *open_parts) if len(open_parts) > 1 else open_parts[0] if open_parts else word == "and"
 
 
-def _check_power(base: Any, exponent: Any, what: str) -> None:
-    """Check that a power of numbers does not fill the memory."""
-    if not (base.is_Rational and exponent.is_Rational):
-        return
-    bits = max(int(base.p).bit_length(), int(base.q).bit_length())
-    if abs(exponent) > LARGEST or (bits > 1 and bits * abs(float(exponent)) > MAX_BITS):
-        raise WrongValue(f"{what} must not have the power {base}^{exponent}, whose digits would fill the memory",
-                         "unreadable-file")
+# ---- operations ----
+
+def _power(graph: Graph, base: Node, exponent: Node) -> Node:
+    if exponent.kind != "number":
+        return graph.call(NAMED["Pow"], base, exponent)
+    number = exponent.content[0]
+    return graph.product([(base, int(number) if number == int(number) else number)])
+
+
+def _extreme(word: str) -> Callable[..., Node]:
+    def of(graph: Graph, best: Node, *others: Node) -> Node:
+        for other in others:
+            best = graph.choice(((graph.comparison(word, best, other), best),), other)
+        return best
+    return of
+
+
+def _modulo(graph: Graph, x: Node, y: Node) -> Node:
+    whole = graph.call(NAMED["floor"], graph.product([(x, 1), (y, -1)]))
+    return graph.sum([(x, 1), (graph.times(y, whole), -1)])
+
+
+def _step(graph: Graph, x: Node, middle: Node | None = None) -> Node:
+    half = graph.number(Fraction(1, 2)) if middle is None else middle
+    return graph.choice(((graph.comparison("<", x, graph.zero), graph.zero), (graph.comparison("==", x, graph.zero), half)), graph.one)
+
+
+OPERATIONS: dict[str, Callable[..., Node]] = {
+    "+": Graph.plus, "*": Graph.times, "^": _power, "sign": sign, "Min": _extreme("<"), "Max": _extreme(">"), "Mod": _modulo,
+    "Heaviside": _step}

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..building.coupling_verbs import _Expression, _Follows, _Sum
+from ..building.coupling_verbs import _Profile, _Follows, _Sum
 from ..building.periodic_spline import PeriodicSpline
 from ..building.table_verbs import FORCES
 from ..elements.bodies import kind_of
@@ -103,8 +103,8 @@ def _cam(coupling: Any, drawing: Drawing) -> dict[str, Any]:
     profile = coupling.law._function.profile if isinstance(coupling.law._function, _Follows) else None
     if isinstance(profile, PeriodicSpline):
         written: Any = {"angles": profile.angles.tolist(), "values": profile.values.tolist()}
-    elif isinstance(profile, _Expression):
-        written = to_json(profile._law.expression, coupling.law.what)
+    elif isinstance(profile, _Profile):
+        written = to_json(profile.formula, coupling.law.what)
     else:       # the constraint is that of the follower, less the profile
         written = ["*", -1, formula_to_json(coupling.law, {"follower": 0})]
     return {"cam": coupling.of[0].rpartition(".")[0], "follower": coupling.of[1], "profile": written}

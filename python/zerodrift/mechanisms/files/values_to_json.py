@@ -12,7 +12,7 @@ from ...errors import WrongValue
 from ..elements.bodies import Particle, Point, _Center
 from ..elements.drawing import Drawing
 from ..elements.user_functions import Law
-from .expressions_json import of_formula, to_json
+from .expressions_json import to_json
 
 
 def numbers(array: Any) -> Any:
@@ -45,14 +45,13 @@ def law_to_json(law: Law) -> Any:
     if law.constant is not None:
         return law.constant
     bound = {name: measure for name, measure in law._bound.items() if "." not in name}
-    return {"expression": to_json(law.expression, law.what) if law.formula is None and law.expression is not None else
-            formula_to_json(law), "of": bound}
+    return {"expression": formula_to_json(law), "of": bound}
 
 
 def formula_to_json(law: Law, leaves: Mapping[str, Any] = MappingProxyType({})) -> Any:
-    """JSON of a function that could be recorded; `leaves` replace some of its names."""
+    """JSON of an expression, or of a function that could be recorded; `leaves` replace some of its names."""
     if law.formula is None:
         why = law.why_called or "is a table, or reads one"
         raise WrongValue(f"{law.what} must be a number, an expression or a function that can be recorded, to be saved: it {why}",
                          "not-portable")
-    return of_formula(law.formula, law.what, leaves)
+    return to_json(law.formula, law.what, leaves)

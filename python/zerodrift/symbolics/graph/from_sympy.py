@@ -19,6 +19,7 @@ from .sympy_functions import REWRITTEN, TOTAL, WITHIN, computable, named
 SIGNS = {sympy.StrictLessThan: "<", sympy.LessThan: "<=", sympy.StrictGreaterThan: ">", sympy.GreaterThan: ">=",
          sympy.Equality: "==", sympy.Unequality: "!="}
 LOGIC = {sympy.And: "and", sympy.Or: "or", sympy.Not: "not"}
+LARGEST = int(1.7976931348623157e308)       # the largest double
 UNDEFINED = math.nan         # one object, so that there is one node of it
 
 
@@ -144,10 +145,8 @@ class _Reading:
         if not e.is_finite:
             raise self.refusal(e, "which is no finite number")
         value = Fraction(int(e.p), int(e.q)) if e.is_Rational else float(e)
-        try:
-            float(value)
-        except OverflowError:
-            raise self.refusal(f"{str(e)[:20]}...", "a number beyond the range of doubles") from None
+        if not abs(value) <= LARGEST:
+            raise self.refusal(f"{str(e)[:20]}...", "a number beyond the range of doubles")
         return self._graph.number(value)
 
     def _power(self, e: Any) -> Node:

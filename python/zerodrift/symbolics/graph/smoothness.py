@@ -33,15 +33,3 @@ def _is_plain(code: str, arguments: list[Any], operands: list[int], varies: list
         kind, *value = operations[operands[1]]
         return kind == "number" and value[0] >= 0 and float(value[0]).is_integer()
     return code == "call" and arguments[0] in TURNS
-
-
-def is_plain_expression(expression: Any, names: set[str]) -> bool:
-    """True if a SymPy expression is polynomial, sine and cosine in the symbols of these names."""
-    if not any(str(symbol) in names for symbol in expression.free_symbols):
-        return True
-    is_sum = expression.is_Symbol or expression.is_Add or expression.is_Mul or expression.is_Pow
-    if not is_sum and expression.func.__name__ not in TURNS:
-        return False
-    if expression.is_Pow and not (expression.exp.is_Integer and expression.exp.is_nonnegative):
-        return False
-    return all(is_plain_expression(each, names) for each in expression.args)
