@@ -1,4 +1,4 @@
-"""Functions that are recorded: values of the core and derivatives are those of the function; what cannot be recorded is called."""
+"""Functions that are recorded: the core has their values and derivatives; what cannot be recorded is called."""
 
 import copy
 import inspect
@@ -13,12 +13,12 @@ import written_laws
 import zerodrift as zd
 from native_systems import needs_compiler
 from support import assert_close, called, refused
+from zerodrift._private.gateway.compiled import programs
 from zerodrift.laws.recording import record
 from zerodrift.mechanisms.elements.user_functions import Law
 from zerodrift.mechanisms.equations import function_calls, function_programs
-from zerodrift._private.gateway.compiled import programs
 
-ROUNDING = 1e-13        # of the largest of values of the function
+LAW_ROUNDING = 1e-13        # of the largest of values of the function
 PID = written_laws.CALLS[0][0]
 BORDERS = [0.0, 1.0, -1.0, 0.1, -0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 1.5, 2.0, 3.0, -2.0, 0.6, 0.9, 1.2, 1e-9]
 
@@ -48,7 +48,8 @@ def in_core(law):
     return values
 
 
-@pytest.mark.parametrize("function", written_laws.RECORDED, ids=lambda function: getattr(function, "__name__", type(function).__name__))
+@pytest.mark.parametrize("function", written_laws.RECORDED,
+                         ids=lambda function: getattr(function, "__name__", type(function).__name__))
 def test_the_core_has_the_values_of_the_function(function):
     law = law_of(function)
     assert law.formula is not None, law.why_called
@@ -58,18 +59,20 @@ def test_the_core_has_the_values_of_the_function(function):
     t = points[:, names.index("t")] if "t" in names else np.zeros(len(points))
     found = in_core(law)(t, points[:, own].copy())
     with np.errstate(all="ignore"):
-        expected = np.array([float(function(*point) if isinstance(function, np.ufunc) else function(**dict(zip(names, point, strict=True))))
+        expected = np.array([float(function(*point) if isinstance(function,
+                                                                  np.ufunc) else function(**dict(zip(names, point, strict=True))))
                              for point in points.tolist()])
     assert np.isfinite(expected).all()
-    assert_close(found, expected, ROUNDING, scale=1.0)
+    assert_close(found, expected, LAW_ROUNDING, scale=1.0)
     by_formula = [law.value(t[i], points[i, own], {}) for i in range(len(points))]
-    assert_close(by_formula, expected, ROUNDING, scale=1.0)
+    assert_close(by_formula, expected, LAW_ROUNDING, scale=1.0)
 
 
 @pytest.mark.parametrize(("function", "reason"), written_laws.CALLS, ids=[reason for _, reason in written_laws.CALLS])
 def test_what_cannot_be_recorded_is_called_and_nothing_changes(function, reason):
     def state():
-        return copy.deepcopy((written_laws.STATE, written_laws.HISTORY, written_laws.K, vars(function) if function is PID else None))
+        return copy.deepcopy((written_laws.STATE, written_laws.HISTORY, written_laws.K,
+                              vars(function) if function is PID else None))
 
     before, law = state(), law_of(function)
     assert law.formula is None
@@ -100,7 +103,8 @@ def swing(law, kind="torque"):
 SMOOTH = {"torque": lambda t, q, u: -5 * math.sin(q) - 0.3 * u * abs(u) + (2.0 if q > -0.5 else q),
           "angle": lambda t: 0.3 * math.sin(3 * t) ** 2 + np.where(t < 0.2, 0.0, (t - 0.2) ** 3),
           "constraint": lambda t, a, x: x - 0.2 * math.cosh(a) * (1 + 0.1 * t) if a > -9 else x,
-          "cam": lambda angle: 0.1 * max(0.0, angle + 0.3) ** 3 - 0.2 * angle, "nonholonomic": lambda a, u, v: v - u * math.cos(a)}
+          "cam": lambda angle: 0.1 * max(0.0, angle + 0.3) ** 3 - 0.2 * angle, "nonholonomic": lambda a, u,
+          v: v - u * math.cos(a)}
 
 
 @pytest.mark.parametrize("kind", SMOOTH)
@@ -150,7 +154,8 @@ def test_derivatives_at_a_border_are_those_of_the_selected_side_and_zero_of_abs(
     m = zd.Mechanism("line")
     guide = m.prismatic("guide", m.ground, m.body("body", 1.0, at=(0, 0)), axis=(1, 0))
     other = m.prismatic("other", m.ground, m.body("second", 1.0, at=(0, 1)), axis=(1, 0))
-    m.constraint("c", lambda x, y: y - (2 * x if x >= 0 else 3 * x) - abs(x), of={"x": guide.displacement, "y": other.displacement})
+    m.constraint("c", lambda x, y: y - (2 * x if x >= 0 else 3 * x) - abs(x),
+                 of={"x": guide.displacement, "y": other.displacement})
     terms = m.system(compiled=False).evaluate([0.0, 0.0], [1.0, 0.0])
     assert terms.C.tolist() == [[-2.0, 1.0]]
 

@@ -8,9 +8,9 @@ import sympy as sp
 
 import zerodrift as zd
 from support import assert_close, called, refused
+from zerodrift.laws.formula import of_expression
 from zerodrift.mechanisms.elements.joints import BY_ROW
 from zerodrift.mechanisms.elements.table_forces import ELEMENTS, FORCES_OF_TABLE
-from zerodrift.laws.formula import of_expression
 from zerodrift.mechanisms.files.expressions_json import from_json, to_json
 from zerodrift.mechanisms.files.from_json import MADE
 from zerodrift.mechanisms.files.to_json import WRITTEN
@@ -124,7 +124,8 @@ def test_a_motion_repeats_itself_with_the_mechanism_that_was_read(tmp_path):
 LAWS = {
     "speed of motor 'drive'": lambda m, pin, law: m.motor("drive", pin, speed=law(lambda t: 0.3 * t if t < 0.2 else 0.06)),
     "value of force 'gas'": lambda m, pin, law: m.force("gas", "link.end", along=(1, 0), value=law(lambda t: np.sin(t))),
-    "value of torque 'air'": lambda m, pin, law: m.torque("air", "link", value=law(lambda t, a: -a % 0.3 - t // 0.1), of={"a": pin.angle}),
+    "value of torque 'air'": lambda m, pin,
+    law: m.torque("air", "link", value=law(lambda t, a: -a % 0.3 - t // 0.1), of={"a": pin.angle}),
     "coupler 'c'": lambda m, pin, law: m.coupler("c", law(lambda a, x: a - 2 * x), of={"a": pin.angle, "x": "rail.displacement"}),
     "constraint 'c'": lambda m, pin, law: m.constraint("c", law(lambda a, x: np.hypot(a, 1) - 1 - x),
                                                        of={"a": pin.angle, "x": "rail.displacement"}),
@@ -187,7 +188,8 @@ def test_without_its_mechanism_a_solution_has_what_was_recorded_and_says_why_not
 @pytest.mark.parametrize("expression", [
     sp.Float(0.1) * t, sp.sqrt(t) / 3, sp.Piecewise((t, (t > 0) & ~(x > 1)), (sp.Abs(x), sp.Eq(t, x)), (sp.E, True)),
     sp.Max(t, 0, x) + sp.atan2(x, t), sp.Symbol("a.b.x", real=True) ** sp.Rational(-2, 7), sp.pi, sp.Integer(10) ** 30 * t,
-    sp.Float(1e-300) + sp.Mod(t, 2), sp.Piecewise((x, sp.Ne(t, 1) | (t <= x)), (2, True)), sp.Heaviside(t), sp.Add(t, t, evaluate=False),
+    sp.Float(1e-300) + sp.Mod(t, 2), sp.Piecewise((x, sp.Ne(t, 1) | (t <= x)), (2, True)), sp.Heaviside(t),
+    sp.Add(t, t, evaluate=False),
     sp.Float("0.123456789012345678") * t, sp.Float("0.1", 5) ** x, t ** x / (1 + sp.exp(x)), sp.tan(t) - sp.acosh(x)], ids=str)
 def test_expressions_come_back(expression):
     formula = of_expression("law", expression)
@@ -197,10 +199,12 @@ def test_expressions_come_back(expression):
         assert again.value(known) == pytest.approx(formula.value(known), rel=1e-15, nan_ok=True)
 
 
-@pytest.mark.parametrize("written", [["sign", "t"], ["Min", "t", 1, "x"], ["Max", "t", "x"], ["Mod", "t", 0.7], ["Heaviside", "t"],
+@pytest.mark.parametrize("written",
+                         [["sign", "t"], ["Min", "t", 1, "x"], ["Max", "t", "x"], ["Mod", "t", 0.7], ["Heaviside", "t"],
                                      ["Heaviside", ["+", "x", -1], 0.25], ["^", ["pi"], ["/", 1, 3]], ["*", ["e"], "t"]], ids=str)
 def test_operations_of_older_files_are_read(written):
-    names = {"sign": "sign", "Min": "Min", "Max": "Max", "Mod": "Mod", "Heaviside": "Heaviside", "^": "Pow", "*": "Mul", "+": "Add"}
+    names = {"sign": "sign", "Min": "Min", "Max": "Max", "Mod": "Mod", "Heaviside": "Heaviside", "^": "Pow", "*": "Mul",
+             "+": "Add"}
 
     def of(part):
         if isinstance(part, list):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from support import called
 from tolerances import SAME
 from zerodrift.systems.measure_values import find, view
 
@@ -78,6 +79,7 @@ def test_measures_that_need_functions_written_in_python_are_those_of_each_run():
 
 
 def test_an_exception_of_such_a_function_is_raised():
+    @called
     def law(t):
         if asked:
             raise OverflowError("too late")

@@ -1,4 +1,4 @@
-"""Formulas: laws as operations on t, parameters and measures. Functions, expressions of SymPy and descriptions in files become these."""
+"""Formulas: laws as operations on t, parameters and measures. Functions, expressions of SymPy and files become these."""
 
 from __future__ import annotations
 
@@ -223,8 +223,9 @@ IN_NUMPY = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arct
             "atanh": "arctanh"} | {name: name for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "expm1", "log",
                                                            "log1p", "log2", "log10", "hypot")}
 FUNCTIONS: dict[str, Callable[..., Any]] = {
-    "Pow": _power, "Abs": abs, "fmod": _remainder, "erf": math.erf, "erfc": math.erfc, SPLINE.__name__: lambda table, x, _: table(x),
-    "floor": lambda x: float(math.floor(autodiff.value(x))), "ceiling": lambda x: float(math.ceil(autodiff.value(x))),
+    "Pow": _power, "Abs": abs, "fmod": _remainder, "erf": math.erf, "erfc": math.erfc,
+    SPLINE.__name__: lambda table, x, _: table(x),
+    "floor": lambda x: float(np.floor(autodiff.value(x))), "ceiling": lambda x: float(np.ceil(autodiff.value(x))),
     **{name: _of_numpy(of) for name, of in IN_NUMPY.items()}}
 
 
@@ -232,11 +233,11 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
 
 def of_expression(what: str, expression: Any) -> Formula:
     """Formula of an expression of SymPy; ValueError names a function that the core lacks."""
-    from ..symbolics.graph.from_sympy import Reader      # slow to import, as it imports SymPy
+    from ..symbolics.graph.from_sympy import Reader  # slow to import, as it imports SymPy
 
     reader = Reader()
     known = {symbol: leaf(reader.graph, str(symbol)) for symbol in sorted(expression.free_symbols, key=str)}
-    found, (result,) = operations([reader.read(what, expression, known)])
+    found, _ = operations([reader.read(what, expression, known)])
     lacking = [content[0] for kind, content in found if kind == "call" and content[0] not in NAMED]
     if lacking:
         raise WrongValue(f"{what} has {lacking[0]}, of which the core knows no derivative", "expression")

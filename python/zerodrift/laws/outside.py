@@ -1,4 +1,4 @@
-"""What a function reads from outside, while it is recorded: its globals, closure, defaults and own object, as copies.
+"""Copies of globals, closure, defaults and own object of a function, which it reads while it is recorded.
 
 `math`, builtins that ask for types, and classes' methods have stand-ins, so that a copy of the function computes with quantities.
 Whatever a recording could miss is refused by name: state, random numbers, time, other libraries.
@@ -23,17 +23,18 @@ from typing import Any
 
 import numpy as np
 
+from .formula import IN_NUMPY
 from .quantities import UFUNCS, Quantity, Unrecorded, function, largest, of_array, smallest
 from .table import Table
 
 PLAIN = (type(None), bool, int, float, complex, str, bytes, range, slice, Fraction, np.generic, np.dtype, enum.Enum, Table)
-FREE = {abs, all, any, bool, bytes, callable, dict, divmod, enumerate, filter, float, frozenset, int, len, list, map, pow, range,
-        reversed, round, set, slice, sorted, str, sum, super, tuple, zip, complex, repr, ord, chr, Fraction, functools.partial,
+FREE = {abs, all, any, bool, bytes, callable, chr, complex, dict, divmod, enumerate, filter, frozenset, int, iter, len, list, map,
+        next, ord, pow, range, repr, reversed, round, set, slice, sorted, str, sum, super, tuple, zip, Fraction, functools.partial,
         functools.reduce, collections.namedtuple}
 MODULES = (math, operator, bisect, itertools)       # whose functions have no state
 HANDLERS = {"SETUP_FINALLY", "SETUP_WITH", "PUSH_EXC_INFO"}
 STATE = {"STORE_GLOBAL": "sets a global name", "DELETE_GLOBAL": "sets a global name", "STORE_ATTR": "sets an attribute",
-         "DELETE_ATTR": "sets an attribute", "IMPORT_NAME": "imports a module", "YIELD_VALUE": "is a generator"}
+         "DELETE_ATTR": "sets an attribute", "IMPORT_NAME": "imports a module"}
 OPERATORS = {f"__{name}__" for name in ("call", "getitem", "len", "iter", "contains", "add", "radd", "sub", "rsub", "mul", "rmul",
                                         "truediv", "rtruediv", "neg", "pow", "matmul", "abs", "bool", "lt", "le", "gt", "ge")}
 FILES = ("save", "load", "set", "from", "gen", "memmap", "print", "show", "info", "test", "get", "buffer", "apply", "vectorize")
@@ -84,13 +85,13 @@ class Outside:
                                      **{name: self.of(each) for name, each in value.keywords.items()})
         if isinstance(value, list | tuple | dict | set | frozenset) and len(value) <= SIZE:
             return self._container(value)
-        if isinstance(value, np.ufunc) or (isinstance(value, type) and issubclass(value, BaseException)):
+        if isinstance(value, np.ufunc | enum.EnumType) or (isinstance(value, type) and issubclass(value, BaseException)):
             return value
-        name = getattr(value, "__name__", "")
+        name = str(getattr(value, "__name__", ""))
         if is_hashable and (value in FREE or any(getattr(module, name, None) is value for module in MODULES)):
             return value
-        if callable(value) and name and getattr(np, name, getattr(np.linalg, name, None)) is value and not isinstance(value, type):
-            return _of_numpy(value)
+        if callable(value) and not isinstance(value, type) and getattr(np, name, getattr(np.linalg, name, None)) is value:
+            return _of_numpy(value)     # type: ignore[arg-type]
         if type(value) is types.SimpleNamespace:
             copy = types.SimpleNamespace(**{key: self.of(each) for key, each in vars(value).items()})
             self._changeable.append((vars(copy), _content(vars(copy))))
@@ -105,16 +106,15 @@ class Outside:
         return copy
 
     def _container(self, value: Any) -> Any:
+        copy: Any
+        if type(value) not in (list, tuple, dict, set, frozenset) and not hasattr(value, "_fields"):
+            raise Unrecorded(f"reads a {type(value).__name__}")
         if isinstance(value, dict):
-            if type(value) is not dict:
-                raise Unrecorded(f"reads a {type(value).__name__}")
-            copy: Any = {}
+            copy = {}
             self._copies[id(value)] = value, copy
             copy.update((key, self.of(each)) for key, each in value.items())
         elif isinstance(value, list):
-            copy = [] if type(value) is list else None
-            if copy is None:
-                raise Unrecorded(f"reads a {type(value).__name__}")
+            copy = []
             self._copies[id(value)] = value, copy
             copy.extend(map(self.of, value))
         elif isinstance(value, tuple):
@@ -155,7 +155,7 @@ class Outside:
             raise Unrecorded(f"uses {module}.{named}" if module and module != "builtins" else f"uses {named}")
         methods: dict[str, Any] = {}
         copy_type = type(kind.__name__, (kind,), methods)
-        copy = object.__new__(copy_type)
+        copy: Any = object.__new__(copy_type)
         self._copies[id(value)] = value, copy
         for base in reversed(kind.__mro__[:-1]):
             for name, each in vars(base).items():
@@ -209,7 +209,8 @@ class _Refused:
     def _refuse(self, *_: Any) -> Any:
         raise Unrecorded(self.__dict__["reason"])
 
-    __call__ = __getitem__ = __iter__ = __len__ = __bool__ = __add__ = __radd__ = __mul__ = __rmul__ = __sub__ = __rsub__ = _refuse
+    __call__ = __getitem__ = __iter__ = __len__ = __bool__ = __add__ = __radd__ = __mul__ = __rmul__ = __sub__ = _refuse
+    __rsub__ = __next__ = _refuse
     __truediv__ = __rtruediv__ = __lt__ = __gt__ = __le__ = __ge__ = __eq__ = __contains__ = __pow__ = __neg__ = _refuse
     __hash__ = None     # type: ignore[assignment]
 
@@ -259,10 +260,11 @@ def _of_numpy(given: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _checked(code: types.CodeType, free: set[str]) -> list[str]:
-    """Names of globals that code reads; code with state, or that catches errors, is refused."""
+    """Names of globals that code reads; code with state, that catches errors or compares identities is refused."""
     found: dict[str, None] = {}
-    if code.co_flags & (0x20 | 0x80 | 0x200):     # generators, coroutines
+    if code.co_flags & (0x80 | 0x200) or (code.co_flags & 0x20 and code.co_name != "<genexpr>"):     # coroutines, generators
         raise Unrecorded("is a generator")
+    last = None
     for each in dis.get_instructions(code):
         if each.opname in HANDLERS:
             raise Unrecorded("has a try or with statement")
@@ -270,19 +272,15 @@ def _checked(code: types.CodeType, free: set[str]) -> list[str]:
             raise Unrecorded(f"{STATE[each.opname]}, {each.argval}" if each.argval else STATE[each.opname])
         if each.opname in ("STORE_DEREF", "DELETE_DEREF") and each.argval in free:
             raise Unrecorded(f"sets the name {each.argval} of another function")
+        if each.opname == "IS_OP" and last and not (last.opname == "LOAD_ATTR" or last.argval is None):
+            raise Unrecorded("compares identities by is")
         if each.opname in ("LOAD_GLOBAL", "LOAD_NAME"):
             found[each.argval] = None
+        last = each
     for constant in code.co_consts:
-        if isinstance(constant, types.CodeType) and "<genexpr>" not in constant.co_name:
+        if isinstance(constant, types.CodeType):
             found.update(dict.fromkeys(_checked(constant, set(constant.co_freevars) & free)))
-        elif isinstance(constant, types.CodeType):
-            found.update(dict.fromkeys(_names_of_generator(constant)))
     return [*found]
-
-
-def _names_of_generator(code: types.CodeType) -> list[str]:
-    """Names of globals in a generator expression, which any, all and sum take."""
-    return [each.argval for each in dis.get_instructions(code) if each.opname == "LOAD_GLOBAL"]
 
 
 def _is_hashable(value: Any) -> bool:
@@ -338,25 +336,28 @@ def _as_float(real: Callable[..., Any]) -> Callable[..., Any]:
     return lambda x, *more: real(1.5 if isinstance(x, Quantity) else x, *more)
 
 
-class _Type(type):
-    """`type`, by which a quantity is a float."""
+class _Class(type):
+    """Stand-in of a class that is called with quantities, which are floats to it."""
+
+    real: type
+    of: Callable[[Any], Any]
 
     def __call__(cls, *x: Any) -> Any:
-        if len(x) != 1:
-            raise Unrecorded("makes a class")
-        return float if isinstance(x[0], Quantity) else builtins.type(x[0])
+        return cls.of(x[0]) if len(x) == 1 and isinstance(x[0], Quantity) else cls.real(*x)
+
+    def __instancecheck__(cls, x: Any) -> bool:
+        return isinstance(x, cls.real)
 
 
-class _type(metaclass=_Type):
-    pass
+def _class(real: type, of: Callable[[Any], Any]) -> Any:
+    return _Class(real.__name__, (), {"real": real, "of": staticmethod(of)})
 
 
-MATH = {"acos": "arccos", "acosh": "arccosh", "asin": "arcsin", "asinh": "arcsinh", "atan": "arctan", "atan2": "arctan2",
-        "atanh": "arctanh", "copysign": "copysign", "cos": "cos", "cosh": "cosh", "degrees": "degrees", "exp": "exp",
-        "expm1": "expm1", "fabs": "fabs", "fmod": "fmod", "isfinite": "isfinite", "isinf": "isinf", "isnan": "isnan",
-        "log10": "log10", "log1p": "log1p", "log2": "log2", "pow": "power", "radians": "radians", "sin": "sin", "sinh": "sinh",
-        "sqrt": "sqrt", "tan": "tan", "tanh": "tanh"} | ({"cbrt": "cbrt", "exp2": "exp2"} if hasattr(math, "cbrt") else {})
-STAND_INS: dict[Any, Any] = {getattr(math, name): _of_math(name, of) for name, of in MATH.items()}
+MATH = IN_NUMPY | {"pow": "power"} | {name: name for name in (
+    "cbrt", "copysign", "erf", "erfc", "degrees", "exp2", "fabs", "fmod", "isfinite", "isinf", "isnan", "radians", "sqrt")}
+STAND_INS: dict[Any, Any] = {
+    getattr(math, name): _of_math(name, of) for name, of in MATH.items() if hasattr(math, name)}
 STAND_INS |= {math.log: _log, math.hypot: _hypot, max: _extreme(max, largest), min: _extreme(min, smallest),
-              isinstance: _as_float(isinstance), hasattr: _as_float(hasattr), type: _type,
+              isinstance: _as_float(isinstance), hasattr: _as_float(hasattr), type: _class(type, lambda x: float),
+              float: _class(float, lambda x: x * 1),
               math.fsum: sum, math.floor: math.floor, math.ceil: math.ceil, math.trunc: math.trunc}

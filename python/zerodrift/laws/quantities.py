@@ -15,7 +15,6 @@ from ..symbolics.graph.graph import Node
 from ..symbolics.graph.plain_functions import NAMED, SPLINE, Plain
 from .formula import FUNCTIONS, IN_NUMPY, SIGNS, leaf
 
-
 LARGEST = 1.7976931348623157e308
 
 
@@ -77,11 +76,9 @@ def _binary(combine: Callable[[Sheet, Node, Node], Node], *, swapped: bool = Fal
 
 
 def _power(sheet: Sheet, base: Node, exponent: Node) -> Node:
-    """Node of a power; numbers as exponents are parts of products."""
-    if exponent.kind != "number" or base.kind == "number":
-        return sheet.call("Pow", *(Quantity(sheet, each) for each in (base, exponent))).node
-    number = exponent.content[0]
-    return sheet.graph.product([(base, int(number) if number == int(number) else number)])
+    if base.kind == exponent.kind == "number":
+        return sheet.call("Pow", base.content[0], exponent.content[0]).node
+    return sheet.graph.power(base, exponent, NAMED["Pow"])
 
 
 def _compared(sign: str) -> Callable[[Quantity, Any], Any]:
@@ -141,15 +138,23 @@ class Quantity:
 
     __add__ = __radd__ = _binary(lambda sheet, a, b: sheet.graph.plus(a, b))
     __mul__ = __rmul__ = _binary(lambda sheet, a, b: sheet.graph.times(a, b))
-    __sub__, __rsub__ = (_binary(lambda sheet, a, b: sheet.graph.sum([(a, 1), (b, -1)]), swapped=swapped) for swapped in (False, True))
+    __sub__, __rsub__ = (_binary(lambda sheet, a, b: sheet.graph.sum([(a, 1), (b, -1)]), swapped=swapped)
+                         for swapped in (False, True))
     __truediv__, __rtruediv__ = (_binary(lambda sheet, a, b: sheet.graph.product([(a, 1), (b, -1)]), swapped=swapped)
                                  for swapped in (False, True))
     __pow__, __rpow__ = (_binary(_power, swapped=swapped) for swapped in (False, True))
-    __lt__, __le__, __gt__, __ge__, __eq__, __ne__ = map(_compared, ("<", "<=", ">", ">=", "==", "!="))   # type: ignore[assignment]
+    __lt__, __le__, __gt__, __ge__ = map(_compared, ("<", "<=", ">", ">="))
+    __eq__, __ne__ = _compared("=="), _compared("!=")   # type: ignore[assignment]
     __and__ = __rand__ = _joined("and")
     __or__ = __ror__ = _joined("or")
-    __float__ = __int__ = __index__ = __complex__ = __round__ = __iter__ = __len__ = _converted
+    __float__ = __complex__ = __round__ = __iter__ = __len__ = _converted
     __str__ = __repr__ = __format__ = _converted
+
+    def __index__(self) -> int:
+        """1 or 0 of a condition, each on a path of its own."""
+        return int(bool(self)) if self.is_condition else _converted()
+
+    __int__ = __index__
 
     def __neg__(self) -> Any:
         return -1 * self
@@ -283,14 +288,14 @@ def smallest(*x: Any) -> Any:
 
 
 def remainder(x: Any, y: Any) -> Any:
-    """x % y, which has the sign of y."""
+    """X % y, which has the sign of y."""
     rest = function("fmod", x, y)
     other_sign = (rest < 0) & (y > 0) | (rest > 0) & (y < 0) if isinstance(y, Quantity) else rest < 0 if y > 0 else rest > 0
     return where(other_sign, rest + y, rest)
 
 
 def quotient(x: Any, y: Any) -> Any:
-    """x // y, a whole number: the nearest to that of x less the remainder."""
+    """X // y, a whole number: the nearest to that of x less the remainder."""
     return function("floor", (x - remainder(x, y)) / y + 0.5)
 
 
@@ -300,7 +305,7 @@ def function(name: str, *x: Any) -> Any:
 
 
 def _clip(x: Any, low: Any = None, high: Any = None, **more: Any) -> Any:
-    """x within limits, as np.clip has it."""
+    """X within limits, as np.clip has it."""
     low, high = (more.pop(name, limit) for name, limit in (("min", low), ("max", high)))
     low, high = more.pop("a_min", low), more.pop("a_max", high)
     if more:
@@ -335,8 +340,10 @@ UFUNCS: dict[str, Callable[..., Any]] = {
     "logical_and": operator.and_, "logical_or": operator.or_, "logical_not": operator.invert, "bitwise_and": operator.and_,
     "bitwise_or": operator.or_, "invert": operator.invert, "exp2": lambda x: 2 ** x, "deg2rad": lambda x: x * (math.pi / 180),
     "radians": lambda x: x * (math.pi / 180), "rad2deg": lambda x: x * (180 / math.pi), "degrees": lambda x: x * (180 / math.pi),
-    "copysign": lambda x, y: where(y < 0, -abs(x), abs(x)), "conjugate": lambda x: x, "isnan": lambda x: False if x.is_leaf else x != x,  # noqa: PLR0124
-    "isfinite": lambda x: True if x.is_leaf else abs(x) <= LARGEST, "isinf": lambda x: False if x.is_leaf else abs(x) > LARGEST,
+    "copysign": lambda x, y: where(y < 0, -abs(x), abs(x)), "conjugate": lambda x: x,
+    "erf": _named("erf"), "erfc": _named("erfc"),
+    "isnan": lambda x: False if x.is_leaf else x != x, "isfinite": lambda x: True if x.is_leaf else abs(x) <= LARGEST,
+    "isinf": lambda x: False if x.is_leaf else abs(x) > LARGEST,
     **{of: _named(name) for name, of in IN_NUMPY.items()}}
 UFUNCS |= {"fmax": UFUNCS["maximum"], "fmin": UFUNCS["minimum"]}
 CALLS: dict[str, Callable[..., Any]] = {"where": where, "clip": _clip, "select": _select}

@@ -21,9 +21,9 @@ from .outside import Outside
 from .quantities import Quantity, Sheet, Unrecorded, of_array
 
 MAX_PATHS = 64
-POINTS, BORDERS = 3, 12     # points of each path at which the formula is compared with the function; of one with jumps
-ATTEMPTS = 2000     # points that are tried for these
-ROUNDING = 1e-12    # of the largest operand
+POINTS = 20         # of each path, at which the formula is compared with the function
+ATTEMPTS = 500      # points that are tried for these: a path that none of them takes counts as one that is not reached
+OPERAND_ROUNDING = 1e-12    # of the largest operand
 
 
 class Branch(NamedTuple):
@@ -149,7 +149,8 @@ def _bound(condition: Node) -> tuple[Node, str, float, bool] | None:
     return None
 
 
-def _decided(sign: str, number: float, is_left: bool, interval: tuple[float, float, bool, bool], apart: set[float]) -> bool | None:
+def _decided(sign: str, number: float, is_left: bool, interval: tuple[float, float, bool, bool],
+             apart: set[float]) -> bool | None:
     """Truth of a comparison of a quantity within an interval, if it is known."""
     low, high, low_open, high_open = interval
     if sign in ("==", "!="):
@@ -191,8 +192,7 @@ def _compare(given: Callable[..., Any], result: Node, tree: Branch | int, paths:
     conditions = [*_conditions(tree)]
     found, (last, *places) = operations([result, *conditions])
     numbers = dict(zip(conditions, places, strict=True))
-    wanted = POINTS if all(kind in ("leaf", "number", "sum", "product") for kind, _ in found) else BORDERS
-    open_paths = dict.fromkeys(range(paths), wanted)
+    open_paths = dict.fromkeys(range(paths), POINTS)
     for attempt, point in enumerate(_points(found, names, parameters)):
         if not open_paths or attempt >= ATTEMPTS:
             break
@@ -211,8 +211,8 @@ def _compare(given: Callable[..., Any], result: Node, tree: Branch | int, paths:
         if math.isfinite(value):
             open_paths[path] -= 1
             open_paths = {path: left for path, left in open_paths.items() if left}
-    if any(left > wanted - POINTS for left in open_paths.values()):
-        raise Unrecorded("has a path that no point was found for" if paths > 1 else "has no value at the points that were tried")
+    if paths == 1 and open_paths == {0: POINTS}:
+        raise Unrecorded("has no value at the points that were tried")
 
 
 def _conditions(tree: Branch | int) -> dict[Node, None]:
@@ -235,12 +235,14 @@ def _check(given: Callable[..., Any], point: Mapping[str, float], value: float, 
         if not math.isfinite(value):
             return
         raise Unrecorded(f"raises {type(error).__name__} where its formula has a value") from None
-    if math.isfinite(expected) if not math.isfinite(value) else not abs(value - expected) <= ROUNDING * max(largest, abs(expected)):
+    is_same = abs(value - expected) <= OPERAND_ROUNDING * max(largest, abs(expected))
+    if not (is_same if math.isfinite(value) else not math.isfinite(expected)):
         raise Unrecorded("has other values with numbers than while it is recorded")
 
 
-def _points(operations: Sequence[Operation], names: Sequence[str], parameters: Mapping[str, float]) -> Iterator[dict[str, float]]:
-    """Points: random ones of several sizes; or borders of the name, the formula's own numbers, or numbers near or between them."""
+def _points(operations: Sequence[Operation], names: Sequence[str],
+            parameters: Mapping[str, float]) -> Iterator[dict[str, float]]:
+    """Points of random numbers of several sizes, of borders of the names, and of the formula's numbers, near and between them."""
     chance = random.Random(0)
     numbers = sorted({float(number) for number in _numbers(operations)} | {0.0, 1.0})
     between = [(a + b) / 2 for a, b in itertools.pairwise(numbers)]

@@ -16,7 +16,7 @@ from ..elements.joints import Joint
 from ..elements.space_joints import BY_KIND
 from ..elements.table_forces import TableForce
 from ..elements.user_functions import Law
-from .coupling_verbs import _Profile, _Follows, _Sum
+from .coupling_verbs import _Follows, _Profile, _Sum
 from .periodic_spline import PeriodicSpline
 from .table_verbs import FORCES, PLANE
 
@@ -109,8 +109,8 @@ def _law(m: Any, law: Law) -> dict[str, Any]:
         return {"value": law.constant, "of": None}
     bound = {name: _measure(m, measure) for name, measure in law._bound.items()}
     given = {name: measure for name, measure in bound.items() if "." not in name}
-    return {"value": law._function if law.formula is None or law._function else law.formula.renamed(bound | dict(zip(given, given))),
-            "of": given}
+    measured = {name: bound[name] for name in bound.keys() - given.keys()}
+    return {"value": law._function or (law.formula and law.formula.renamed(measured)), "of": given}
 
 
 def _start(drawing: Drawing, given: Mapping[str, Any]) -> dict[str, Any]:

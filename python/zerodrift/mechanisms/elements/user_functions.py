@@ -33,7 +33,7 @@ class Law:
     constant : float or None
         Its value where it is a plain number.
     formula : Formula or None
-        What an expression is, or what a function computes, where that could be recorded.
+        Formula of an expression, or of a function that could be recorded.
     why_called : str
         Reason why a function was not recorded, and is called instead; empty for others.
     """
@@ -85,7 +85,7 @@ class Law:
 
     def record(self, parameters: Mapping[str, float]) -> None:
         """Record a function; numbers that it reads from outside count as they are now."""
-        if self._function is not None and not hasattr(self._function, "written") and not self.why_called:
+        if self._function is not None and not hasattr(self._function, "written") and not isinstance(self._function, Expression):
             self.formula, self.why_called = recording.record(self._function, self._names, parameters, self.formula)
 
     def read(self, reactions: Iterable[str]) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from ..._private.gateway.mechanisms.element_tables import Triple, three
 from ..._private.gateway.mechanisms.space_plans import Link, Way

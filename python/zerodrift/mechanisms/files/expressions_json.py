@@ -38,7 +38,8 @@ def to_json(formula: Formula, what: str, leaves: Mapping[str, Any] = MappingProx
             case "number":
                 made = _number(content)
             case "sum":
-                made = ["+", *(written[each] if factor == 1 else ["*", _number(factor), written[each]] for each, factor in content)]
+                made = ["+", *(written[each] if factor == 1 else ["*", _number(factor), written[each]]
+                               for each, factor in content)]
             case "product":
                 made = ["*", *(written[each] if exponent == 1 else ["^", written[each], _number(exponent)]
                                for each, exponent in content)]
@@ -49,7 +50,7 @@ def to_json(formula: Formula, what: str, leaves: Mapping[str, Any] = MappingProx
                         [written[content[1]], ["true"]]]
             case _:
                 made = [content[0], *(written[each] for each in content[1])]
-        written.append(made[1] if isinstance(made, list) and made[0] in "+*" and len(made) == 2 else made)
+        written.append(made[1] if isinstance(made, list) and len(made) == 2 and made[0] in ("+", "*") else made)
     if _size(written[-1], {}) > MAX_WORDS:
         raise WrongValue(f"{what} must have at most {MAX_WORDS} words, to be saved", "not-portable")
     return written[-1]
@@ -120,10 +121,10 @@ class _Reading:
             known = [*OPERATIONS, *SIGNS, *CALLED, "cases", "and", "or", "not", *CONSTANTS, "/"]
             raise WrongValue(f"{what} has the operation {word!r}; there are {', '.join(known)}", "unreadable-file")
         if not all(isinstance(part, Node) and part.kind not in ("comparison", "logic") for part in read):
-            raise self._refusal(word)
+            raise self.refusal(word)
         return self._of(word, read)
 
-    def _refusal(self, word: str) -> WrongValue:
+    def refusal(self, word: str) -> WrongValue:
         return WrongValue(f"{self._what} has the operation {word!r} of parts that it cannot have", "unreadable-file")
 
     def _of(self, word: str, read: list[Node]) -> Node:
@@ -138,7 +139,7 @@ class _Reading:
             found = graph.call(NAMED[word], *read)
             graph.slope(NAMED[word], 0, tuple(read))        # which takes as many arguments
         except (TypeError, ValueError, OverflowError, ZeroDivisionError):
-            raise self._refusal(word) from None
+            raise self.refusal(word) from None
         return found
 
     def _check_power(self, word: str, read: list[Node]) -> None:
@@ -147,15 +148,15 @@ class _Reading:
             base, exponent = (node.content[0] for node in read)
             bits = max(abs(base.numerator), base.denominator).bit_length() if isinstance(base, int | Fraction) else 0
             if bits > 1 and abs(exponent) * bits > MAX_BITS:
-                raise WrongValue(f"{self._what} must not have the power {str(base)[:20]}^{str(exponent)[:20]}, whose digits would "
-                                 "fill the memory", "unreadable-file")
+                raise WrongValue(f"{self._what} must not have the power {str(base)[:20]}^{str(exponent)[:20]}, whose digits "
+                                 "would fill the memory", "unreadable-file")
 
     def _choice(self, cases: list[tuple[Any, Any]]) -> Any:
         otherwise: Any = self._graph.number(math.nan)
         read = []
         for value, condition in cases:
-            if isinstance(condition, Node) and condition.kind not in ("comparison", "logic") or not isinstance(value, Node):
-                raise self._refusal("cases")
+            if (isinstance(condition, Node) and condition.kind not in ("comparison", "logic")) or not isinstance(value, Node):
+                raise self.refusal("cases")
             if condition is True:
                 otherwise = value
                 break
@@ -165,7 +166,7 @@ class _Reading:
     def _logic(self, word: str, read: list[Any]) -> Any:
         is_right = all(isinstance(part, bool) or part.kind in ("comparison", "logic") for part in read)
         if not read or not is_right or (word == "not") > (len(read) == 1):
-            raise self._refusal(word)
+            raise self.refusal(word)
         if word == "not":
             return not read[0] if isinstance(read[0], bool) else self._graph.logic(word, *read)
         if (word == "or") in read:
@@ -175,13 +176,6 @@ class _Reading:
 
 
 # ---- operations ----
-
-def _power(graph: Graph, base: Node, exponent: Node) -> Node:
-    if exponent.kind != "number":
-        return graph.call(NAMED["Pow"], base, exponent)
-    number = exponent.content[0]
-    return graph.product([(base, int(number) if number == int(number) else number)])
-
 
 def _extreme(word: str) -> Callable[..., Node]:
     def of(graph: Graph, best: Node, *others: Node) -> Node:
@@ -198,9 +192,10 @@ def _modulo(graph: Graph, x: Node, y: Node) -> Node:
 
 def _step(graph: Graph, x: Node, middle: Node | None = None) -> Node:
     half = graph.number(Fraction(1, 2)) if middle is None else middle
-    return graph.choice(((graph.comparison("<", x, graph.zero), graph.zero), (graph.comparison("==", x, graph.zero), half)), graph.one)
+    cases = (graph.comparison("<", x, graph.zero), graph.zero), (graph.comparison("==", x, graph.zero), half)
+    return graph.choice(cases, graph.one)
 
 
 OPERATIONS: dict[str, Callable[..., Node]] = {
-    "+": Graph.plus, "*": Graph.times, "^": _power, "sign": sign, "Min": _extreme("<"), "Max": _extreme(">"), "Mod": _modulo,
-    "Heaviside": _step}
+    "+": Graph.plus, "*": Graph.times, "^": lambda graph, base, exponent: graph.power(base, exponent, NAMED["Pow"]), "sign": sign,
+    "Min": _extreme("<"), "Max": _extreme(">"), "Mod": _modulo, "Heaviside": _step}

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..building.coupling_verbs import _Profile, _Follows, _Sum
+from ..building.coupling_verbs import _Follows, _Profile, _Sum
 from ..building.periodic_spline import PeriodicSpline
 from ..building.table_verbs import FORCES
 from ..elements.bodies import kind_of

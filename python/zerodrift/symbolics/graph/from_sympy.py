@@ -144,19 +144,16 @@ class _Reading:
     def _number(self, e: Any) -> Node:
         if not e.is_finite:
             raise self.refusal(e, "which is no finite number")
-        value = Fraction(int(e.p), int(e.q)) if e.is_Rational else float(e)
+        value: Any = Fraction(int(e.p), int(e.q)) if e.is_Rational else float(e)
         if not abs(value) <= LARGEST:
             raise self.refusal(f"{str(e)[:20]}...", "a number beyond the range of doubles")
         return self._graph.number(value)
 
     def _power(self, e: Any) -> Node:
         base, exponent = map(self, e.args)
-        if exponent.kind == "number":
-            if base.kind == "number":
-                return self._constant(e)
-            value = exponent.content[0]
-            return self._graph.product([(base, int(value) if value == int(value) else value)])
-        return self._graph.call(NAMED["Pow"], base, exponent)
+        if base.kind == exponent.kind == "number":
+            return self._constant(e)
+        return self._graph.power(base, exponent, NAMED["Pow"])
 
     def _call(self, e: Any) -> Node:
         if not computable(type(e)):

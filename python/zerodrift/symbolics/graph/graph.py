@@ -139,6 +139,13 @@ class Graph:
         zero = self.zero
         return self.plus(*(self.times(x, y) for x, y in zip(a, b, strict=True) if x is not zero and y is not zero))
 
+    def power(self, base: Node, exponent: Node, call: Any) -> Node:
+        """A node to the power of another: a number as exponent is part of a product, any other an argument of the call."""
+        if exponent.kind != "number":
+            return self.call(call, base, exponent)
+        number = exponent.content[0]
+        return self.product([(base, int(number) if number == int(number) else number)])
+
     # ---- all other kinds ----
 
     def call(self, function: Any, *arguments: Node) -> Node:

@@ -41,6 +41,10 @@ def _times(graph: Graph, node: Node, factor: float) -> tuple[Node]:
     return (graph.sum([(node, factor)]),)
 
 
+def _of_erf(graph: Graph, x: Node, factor: float) -> tuple[Node]:
+    return _times(graph, graph.call(NAMED["exp"], _plus_square(graph, -1, x, 0)), factor / math.sqrt(math.pi))
+
+
 def _of_atan2(graph: Graph, y: Node, x: Node) -> tuple[Node, Node]:
     size = graph.plus(_power(graph, x, 2), _power(graph, y, 2))
     return graph.product([(x, 1), (size, -1)]), graph.product([(graph.minus(y), 1), (size, -1)])
@@ -57,7 +61,7 @@ def _of_power(graph: Graph, base: Node, exponent: Node) -> tuple[Node, Node]:
 
 
 def _of_remainder(graph: Graph, x: Node, y: Node) -> tuple[Node, Node]:
-    """Of fmod: x less so many times y, towards zero."""
+    """Derivatives of x less so many times y, towards zero."""
     ratio = graph.product([(x, 1), (y, -1)])
     down, up = (graph.call(NAMED[name], ratio) for name in ("floor", "ceiling"))
     return graph.one, graph.minus(graph.choice(((graph.comparison("<", ratio, graph.zero), up),), down))
@@ -69,15 +73,15 @@ def sign(graph: Graph, x: Node) -> Node:
     return graph.choice(cases, graph.zero)
 
 
-SIN = Function("sin", lambda graph, x: (graph.call(COS, x),))
-COS = Function("cos", lambda graph, x: (graph.minus(graph.call(SIN, x)),))
+SIN: Function = Function("sin", lambda graph, x: (graph.call(COS, x),))
+COS: Function = Function("cos", lambda graph, x: (graph.minus(graph.call(SIN, x)),))
 ATAN2 = Function("atan2", _of_atan2)
 FLOOR = Function("floor", _constant())      # between jumps
 # Of the address of a table, the argument, and the order of the derivative
-SPLINE = Function("zd_spline_at", lambda graph, spline, x, order: (
+SPLINE: Function = Function("zd_spline_at", lambda graph, spline, x, order: (
     graph.zero, graph.call(SPLINE, spline, x, graph.plus(order, graph.one)), graph.zero))
 
-NAMED = {function.__name__: function for function in (
+NAMED: dict[str, Function] = {function.__name__: function for function in (
     SIN, COS, ATAN2, FLOOR, SPLINE, Function("ceiling", _constant(), "ceil"),
     Function("tan", lambda graph, x: (_plus_square(graph, 1, graph.call(NAMED["tan"], x)),)),
     Function("asin", lambda graph, x: (_power(graph, _plus_square(graph, -1, x), -HALF),)),
@@ -95,9 +99,7 @@ NAMED = {function.__name__: function for function in (
     Function("log1p", lambda graph, x: (_power(graph, graph.plus(x, graph.one), -1),)),
     Function("log2", lambda graph, x: _times(graph, _power(graph, x, -1), 1 / math.log(2))),
     Function("log10", lambda graph, x: _times(graph, _power(graph, x, -1), 1 / math.log(10))),
-    Function("erf", lambda graph, x: _times(graph, graph.call(NAMED["exp"], _plus_square(graph, -1, x, 0)), 2 / math.sqrt(math.pi))),
-    Function("erfc", lambda graph, x: _times(graph, graph.call(NAMED["exp"], _plus_square(graph, -1, x, 0)),
-                                             -2 / math.sqrt(math.pi))),
+    Function("erf", lambda graph, x: _of_erf(graph, x, 2.0)), Function("erfc", lambda graph, x: _of_erf(graph, x, -2.0)),
     Function("Abs", lambda graph, x: (sign(graph, x),), "fabs"), Function("hypot", _of_hypot),
     Function("Pow", _of_power, "pow"), Function("fmod", _of_remainder))}
 
