@@ -103,7 +103,7 @@ PLAIN = {
 }
 # Functions that return an error of the package, which are raised at once.
 MAKERS = {"error_of", "self.error", "run.error", "_failure", "_complaint", "_beyond", "self.refusal", "self.goal.refusal",
-          "with_solution", "self._error", "self._unmet", "contradiction", "not_saved", "advised",
+          "with_solution", "self._error", "self._unmet", "contradiction", "advised",
           "of_code", "search.interrupted", "_wrong"}
 
 

@@ -131,6 +131,21 @@ def test_numbers_from_outside_count_as_they_are_when_a_run_begins():
     assert_close(zd.simulate(m, 0.1, step=0.01).p, zd.simulate(swing(lambda t: 6.0), 0.1, step=0.01).p, 1e-14, scale=1.0)
 
 
+def test_laws_that_read_what_another_may_change_are_called():
+    state = {"on": 0.0}
+
+    def switch(t):
+        state["on"] = 1.0 if t > 0.05 else 0.0
+        return 0.0
+
+    m = swing(lambda t: 5.0 * state["on"])
+    m.torque("switch", "link", value=switch)
+    m.torque("other", "link", value=lambda t: 2.0 * t)
+    system = m.system()
+    assert [m[name].law.formula is None for name in ("drive", "switch", "other")] == [True, True, False]
+    assert zd.simulate(system, 0.2, step=0.01)["drive.torque"][-1] == 5.0
+
+
 def test_parameters_stay_parameters():
     m = zd.Mechanism("swing", parameters={"k": 2.0})
     link = m.link("link", (0, 0), (1, 0), mass=1.0)
@@ -144,7 +159,7 @@ def test_parameters_stay_parameters():
 
 
 def test_only_the_selected_side_must_be_finite():
-    formula, _ = record(lambda x: np.where(x > 0, 1 / x, 0.0) + (math.log(x) if x > 1 else 0.0), ["x"], {})
+    formula, *_ = record(lambda x: np.where(x > 0, 1 / x, 0.0) + (math.log(x) if x > 1 else 0.0), ["x"], {})
     assert formula.value({"x": 0.0}) == 0.0
     law = law_of(lambda x: np.where(x > 0, 1 / x, 0.0))
     assert list(in_core(law)(np.zeros(2), np.array([[0.0], [2.0]]))) == [0.0, 0.5]

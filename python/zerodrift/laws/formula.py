@@ -215,8 +215,10 @@ def _of_numpy(name: str) -> Callable[..., Any]:
 
 def _remainder(x: Any, y: Any) -> Any:
     """fmod, whose derivative is that of x less so many times y."""
-    whole = math.trunc(autodiff.value(x) / autodiff.value(y))
-    return x - y * whole if isinstance(x, autodiff.Jet) or isinstance(y, autodiff.Jet) else math.fmod(x, y)
+    if isinstance(x, autodiff.Jet) or isinstance(y, autodiff.Jet):
+        return x - y * math.trunc(autodiff.value(x) / autodiff.value(y))
+    with np.errstate(all="ignore"):
+        return float(np.fmod(x, y))
 
 
 IN_NUMPY = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan2", "asinh": "arcsinh", "acosh": "arccosh",

@@ -28,9 +28,9 @@ from .quantities import UFUNCS, Quantity, Unrecorded, function, largest, of_arra
 from .table import Table
 
 PLAIN = (type(None), bool, int, float, complex, str, bytes, range, slice, Fraction, np.generic, np.dtype, enum.Enum, Table)
-FREE = {abs, all, any, bool, bytes, callable, chr, complex, dict, divmod, enumerate, filter, frozenset, int, iter, len, list, map,
-        next, ord, pow, range, repr, reversed, round, set, slice, sorted, str, sum, super, tuple, zip, Fraction, functools.partial,
-        functools.reduce, collections.namedtuple}
+FREE = {abs, all, any, bool, bytes, callable, chr, dict, divmod, enumerate, filter, frozenset, int, iter, len, list, map,
+        next, ord, pow, range, repr, reversed, round, set, slice, sorted, str, sum, super, tuple, zip, Fraction, functools.reduce,
+        functools.partial, collections.namedtuple}
 MODULES = (math, operator, bisect, itertools)       # whose functions have no state
 HANDLERS = {"SETUP_FINALLY", "SETUP_WITH", "PUSH_EXC_INFO"}
 STATE = {"STORE_GLOBAL": "sets a global name", "DELETE_GLOBAL": "sets a global name", "STORE_ATTR": "sets an attribute",
@@ -43,9 +43,16 @@ SIZE = 10_000       # entries of a list, a dict, an array that is read, at most
 
 
 class Outside:
-    """Copies of what a function reads."""
+    """Copies of what a function reads.
+
+    Attributes
+    ----------
+    has_values : bool
+        True if numbers or objects are among it: then another function that has state may change the result.
+    """
 
     def __init__(self) -> None:
+        self.has_values = False
         self._copies: dict[int, tuple[Any, Any]] = {}       # by identity, with the original, which must stay
         self._changeable: list[tuple[Any, Any]] = []        # copies, and their content
         self._depth = 0
@@ -53,6 +60,7 @@ class Outside:
     def of(self, value: Any) -> Any:
         """Stand-in or copy of a value."""
         if isinstance(value, PLAIN):
+            self.has_values = self.has_values or isinstance(value, int | float | np.generic)
             return value
         if id(value) not in self._copies:
             self._depth += 1
@@ -90,7 +98,7 @@ class Outside:
         name = str(getattr(value, "__name__", ""))
         if is_hashable and (value in FREE or any(getattr(module, name, None) is value for module in MODULES)):
             return value
-        if callable(value) and not isinstance(value, type) and getattr(np, name, getattr(np.linalg, name, None)) is value:
+        if callable(value) and not isinstance(value, type) and vars(np).get(name, vars(np.linalg).get(name)) is value:
             return _of_numpy(value)     # type: ignore[arg-type]
         if type(value) is types.SimpleNamespace:
             copy = types.SimpleNamespace(**{key: self.of(each) for key, each in vars(value).items()})
@@ -103,6 +111,8 @@ class Outside:
             raise Unrecorded("reads an array that is large or not of numbers")
         copy = value.view(np.ndarray).copy()
         copy.flags.writeable = False
+        self._changeable.append((copy, _content(copy)))
+        self.has_values = True
         return copy
 
     def _container(self, value: Any) -> Any:
@@ -123,6 +133,7 @@ class Outside:
         else:
             copy = type(value)(map(self.of, value))
         self._changeable.append((copy, _content(copy)))
+        self.has_values = True
         return copy
 
     def _function(self, value: types.FunctionType) -> types.FunctionType:
@@ -172,6 +183,7 @@ class Outside:
                     setattr(copy_type, name, _Refused(f"uses the class method {name}"))
         for name, each in vars(value).items():
             copy.__dict__[name] = _Refused.unless(self, each)
+        self.has_values = True
         self._changeable.append((copy.__dict__, _content(copy.__dict__)))
         return copy
 
@@ -292,11 +304,14 @@ def _is_hashable(value: Any) -> bool:
 
 
 def _content(container: Any) -> list[Any]:
+    if isinstance(container, np.ndarray):
+        return container.tolist() if container.ndim else [container.item()]
     return [each for pair in container.items() for each in pair] if isinstance(container, dict) else list(container)
 
 
 def _same(one: list[Any], other: list[Any]) -> bool:
-    return len(one) == len(other) and all(a is b for a, b in zip(one, other, strict=True))
+    return len(one) == len(other) and all(a is b or (type(a) in (int, float, bool, list) and a == b)
+                                          for a, b in zip(one, other, strict=True))
 
 
 # ---- stand-ins ----

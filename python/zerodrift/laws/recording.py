@@ -34,25 +34,38 @@ class Branch(NamedTuple):
     no: Branch | int
 
 
+class Recorded(NamedTuple):
+    """Formula of a function; or None, and the reason why it stays a call."""
+
+    formula: Formula | None
+    why_called: str = ""
+    has_values: bool = False        # it reads numbers or objects from outside
+
+    @property
+    def has_state(self) -> bool:
+        """True if the function is known to change what others may read."""
+        return self.why_called.startswith(("sets", "changes"))
+
+
 def record(given: Callable[..., Any], names: Sequence[str], parameters: Mapping[str, float],
-           last: Formula | None = None) -> tuple[Formula | None, str]:
-    """Formula of a function of these arguments, some of which are parameters; or None, and the reason why it stays a call.
+           last: Formula | None = None) -> Recorded:
+    """Record a function of these arguments, some of which are parameters.
 
     `last` is its formula at an earlier time, which is compared already.
     """
     try:
-        result, tree, paths = _followed(given, names)
+        paths = _Paths(given, names)
+        result, tree = paths.follow([])
         formula = Formula.of(result)
-        if formula == last:
-            return formula, ""
-        if formula != Formula.of(_followed(given, names)[0]):
-            raise Unrecorded("is different at each call")
-        _compare(given, result, tree, paths, names, parameters)
+        if formula != last:
+            if formula != Formula.of(_Paths(given, names).follow([])[0]):
+                raise Unrecorded("is different at each call")
+            _compare(given, result, tree, paths.count, names, parameters)
     except Unrecorded as error:
-        return None, str(error)
+        return Recorded(None, str(error))
     except Exception as error:      # of objects that are not as others
-        return None, f"raises {type(error).__name__} while it is copied"
-    return formula, ""
+        return Recorded(None, f"raises {type(error).__name__} while it is copied")
+    return Recorded(formula, has_values=paths.outside.has_values)
 
 
 # ---- paths ----
@@ -61,8 +74,8 @@ class _Paths:
     """Exploration of a function's paths."""
 
     def __init__(self, given: Callable[..., Any], names: Sequence[str]) -> None:
-        self._outside, self._names, self.count = Outside(), names, 0
-        self._function = self._outside.of(given)
+        self.outside, self._names, self.count = Outside(), names, 0
+        self._function = self.outside.of(given)
         self._sheet = Sheet(self._decide)
         self._forced: list[tuple[Node, bool]] = []
         self._taken: list[tuple[Node, bool]] = []
@@ -78,7 +91,7 @@ class _Paths:
         taken = self._taken
         if taken[:len(forced)] != forced:
             raise Unrecorded("is different at each call")
-        if changed := self._outside.changed():
+        if changed := self.outside.changed():
             raise Unrecorded(f"changes a {changed}")
         for i in reversed(range(len(forced), len(taken))):
             condition = taken[i][0]
@@ -176,12 +189,6 @@ def _scalar(result: Any) -> Any:
             isinstance(result, Quantity) and result.is_condition):
         raise Unrecorded(f"returns {'a condition' if isinstance(result, Quantity) else type(result).__name__}")
     return result
-
-
-def _followed(given: Callable[..., Any], names: Sequence[str]) -> tuple[Node, Branch | int, int]:
-    """Node of the result, tree of paths, and their number."""
-    paths = _Paths(given, names)
-    return *paths.follow([]), paths.count
 
 
 # ---- comparison with the function ----

@@ -286,8 +286,12 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
 
     def _drawing(self) -> Drawing:
         gravity = np.array(checks.vector("gravity", self.gravity, self.dimension))
-        for element in self._elements.values():
-            if isinstance(law := getattr(element, "law", None), Law):
-                law.record(self.parameters)     # anew where what it reads from outside has changed
+        laws = [law for element in self._elements.values() if isinstance(law := getattr(element, "law", None), Law)]
+        for law in laws:
+            law.record(self.parameters)     # anew where what it reads from outside has changed
+        if any(law.recorded.has_state for law in laws):
+            for law in laws:
+                if law.recorded.has_values:
+                    law.call("reads numbers or objects, and another law of the mechanism has state")
         return Drawing(self.name, gravity, dict(self.parameters), dict(self._elements), dict(self._held), dict(self._wished),
                        self._is_balanced)

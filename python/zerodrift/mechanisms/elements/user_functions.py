@@ -41,6 +41,7 @@ class Law:
     input: str | None = None        # name of the input that takes its place in a run
     is_speed = False
     reactions: Mapping[str, str] = MappingProxyType({})
+    recorded = recording.Recorded(None)
     formula: Formula | None = None
     constant: float | None = None
     why_called = ""
@@ -68,6 +69,10 @@ class Law:
         self.depends_on_time = "t" in self._names
         self.record(parameters)
 
+    def call(self, why: str) -> None:
+        """Keep a function as a call, though it could be recorded."""
+        self.formula, self.why_called = None, why
+
     def _read(self, expression: Any) -> Formula | Expression:
         """Formula of an expression of SymPy; one with a function that the core lacks is called."""
         try:
@@ -86,7 +91,8 @@ class Law:
     def record(self, parameters: Mapping[str, float]) -> None:
         """Record a function; numbers that it reads from outside count as they are now."""
         if self._function is not None and not hasattr(self._function, "written") and not isinstance(self._function, Expression):
-            self.formula, self.why_called = recording.record(self._function, self._names, parameters, self.formula)
+            self.recorded = recording.record(self._function, self._names, parameters, self.formula)
+            self.formula, self.why_called, _ = self.recorded
 
     def read(self, reactions: Iterable[str]) -> None:
         """Take these of its measures as reactions."""

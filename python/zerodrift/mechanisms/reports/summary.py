@@ -47,6 +47,10 @@ def report(drawing: Drawing) -> str:
     driven += [f"{actuator.name} ({actuator.drives})" for actuator in drawing.of(Actuator)]
     if driven:
         lines.append(f" driven: {', '.join(driven)}")
+    called = [f"{law.what} ({law.why_called})" for each in drawing.elements.values()
+              if (law := getattr(each, "law", None)) and law.why_called]
+    if called:
+        lines.append(f" called in Python: {_listed(called)}")
     found = cost.cost(tables_of(drawing, AS_GIVEN, in_tree=True), exact=True)
     lines.append(f" a simulation takes {found.taken} coordinates: {found.in_words}")
     return "\n".join(lines)
