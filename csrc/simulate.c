@@ -1,9 +1,11 @@
 /* The outer loop of a run: what precedes a step, the step, events within it, samples that are due; again until the end. */
+#include "point/point.h"
 #include "run/run.h"
 #include "step/step_loop.h"
 
 enum { CLOCK_EVERY = 16 };      /* steps between readings of the clock */
 static const double SLICE = 0.03;   /* s: time slice of zd_run_step() */
+static const double ERRORS = 10;    /* tolerances of a step by which an accepted state may be beyond the domain of user functions */
 
 /* True if a step has nothing before it and nothing after it except its sample. */
 static int is_plain(const zd_settings *settings)
@@ -49,6 +51,7 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds)
 {
     const double deadline = zd_seconds_now() + seconds;
     const int plain = is_plain(&run->settings);
+    const double errors = zd_is_adaptive(&run->loop) ? ERRORS : 0;
     int64_t clock_step = (run->loop.step / CLOCK_EVERY + 1) * CLOCK_EVERY;    /* a slice makes at least one step */
     int status = run->outcome.status ? run->outcome.status : begin(run, record);
     if (!status && zd_inputs_read(run)) return ZD_BAD_INPUT;
@@ -58,6 +61,7 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds)
             clock_step += CLOCK_EVERY;
         }
         status = plain ? zd_step(&run->loop) : take_step(run);
+        if (!status) status = zd_point_check_domain(run->motion.point, errors * run->settings.rtol, errors * run->settings.atol);
         if (!status && record) status = save(run, record);
     }
     return status == ZD_FULL ? status : zd_run_finish(run, status);

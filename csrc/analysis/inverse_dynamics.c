@@ -222,7 +222,8 @@ int zd_inverse_dynamics(const zd_given_motion *given, zd_needed_efforts *to)
     for (int64_t i = 0; i < given->states && !status; i++) {
         to->sample = i;
         zd_point_move(self->point, given->t[i], given->p + i * nq, given->v + i * nv);
-        status = zd_point_need(self->point, needs);
+        status = zd_point_check_domain(self->point, 0, 0);
+        if (!status) status = zd_point_need(self->point, needs);
         if (!status) status = zd_point_measure(self->point);
         if (!status && is_violated(self, given->vdot + i * nv)) status = ZD_BAD_START;
         if (!status) status = find_tangent(self);

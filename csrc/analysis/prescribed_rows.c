@@ -97,7 +97,8 @@ int zd_prescribed_rows_factor(zd_prescribed_rows *self, double t, const double *
 {
     zd_point *point = self->point;
     zd_point_move(point, t, p, point->v);
-    int status = zd_point_measure(point);
+    int status = zd_point_check_domain(point, 0, 0);
+    if (!status) status = zd_point_measure(point);
     if (!status) status = zd_point_need_times_A(point, ZD_PHI | ZD_C | ZD_PHI_T);
     if (!status) status = read_quantities(self, 0);
     if (status) return status;

@@ -89,6 +89,7 @@ static int make(zd_block *self, const arrays *from, zd_complaint to)
     if (!self->layout.of->make(self, from->section, &elements, to)) return 0;
     self->system.name_constraint = zd_block_name_row;
     self->system.names = &self->names;
+    if (!self->laws.have_ends) self->system.check_domain = NULL;
     if (zd_block_count(&self->layout, ZD_BLOCK_LAWS))
         self->system.failure = "a user function of the mechanism is not defined here, as a table beyond its ends";
     self->outputs = (zd_outputs){NULL, zd_block_count(&self->layout, ZD_BLOCK_OUTPUTS), self->output};

@@ -13,7 +13,7 @@ typedef struct zd_block_laws {
     uint16_t *result;
     double *number;             /* splines are their addresses */
     zd_spline *spline;
-    int know_time;              /* 1 if a law reads t */
+    int know_time, have_ends;   /* 1 if a law reads t; if one may have a table whose ends are an error */
 } zd_block_laws;
 
 void zd_block_laws_create(zd_block_laws *self, const zd_block_layout *layout, zd_arena *arena);

@@ -15,7 +15,7 @@ enum zd_code {
     ZD_CODE_LESS, ZD_CODE_LESS_EQUAL, ZD_CODE_GREATER, ZD_CODE_GREATER_EQUAL, ZD_CODE_EQUAL, ZD_CODE_UNEQUAL,     /* 1 if true, else 0 */
     ZD_CODE_AND, ZD_CODE_OR, ZD_CODE_NOT,
     ZD_CODE_CHOOSE,         /* b if a is not 0, otherwise c */
-    ZD_CODE_SPLINE,         /* a zd_spline, whose address is a, at b: derivative of order c; NaN beyond its ends */
+    ZD_CODE_SPLINE,         /* a zd_spline, whose address is a, at b: derivative of order c */
     ZD_CODE_POWER, ZD_CODE_ROOT, ZD_CODE_SIN, ZD_CODE_COS, ZD_CODE_TAN, ZD_CODE_ASIN, ZD_CODE_ACOS, ZD_CODE_ATAN, ZD_CODE_ATAN2,
     ZD_CODE_SINH, ZD_CODE_COSH, ZD_CODE_TANH, ZD_CODE_ASINH, ZD_CODE_ACOSH, ZD_CODE_ATANH, ZD_CODE_EXP, ZD_CODE_LOG, ZD_CODE_ABS,
     ZD_CODE_FLOOR, ZD_CODE_CEILING, ZD_CODE_ERF, ZD_CODE_ERFC, ZD_CODE_EXPM1, ZD_CODE_HYPOT, ZD_CODE_LOG1P, ZD_CODE_LOG2,
@@ -56,6 +56,11 @@ void zd_expressions_evaluate(const zd_expressions *self, const double *numbers, 
 /* The same at so many states: t (states,), x (states, terms), and so on. */
 void zd_expressions_evaluate_all(const zd_expressions *self, const double *numbers, int64_t states, const double *t, const double *x,
                                  const double *xdot, double *out);
+/* True if one of the expressions may have a table whose ends are an error; if all values are defined at a state whose quantities may be off
+ * by atol + rtol |x|: a table beyond such an end has none. */
+int zd_expressions_have_ends(const zd_expressions *self, const double *numbers);
+int zd_expressions_are_defined(const zd_expressions *self, const double *numbers, double rtol, double atol, double t, const double *x,
+                               const double *xdot);
 /* Runs instructions without units; values go to `to` and the places after it, within the frame `value`. */
 void zd_program_run(const zd_instruction *next, double *value, double *to);
 /* The value of an operation on values. */

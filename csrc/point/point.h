@@ -122,6 +122,14 @@ void zd_point_force(const zd_point *point, double *force);          /* f - d */
 static inline double zd_point_potential(const zd_point *point) { return point->terms.V ? *point->terms.V : 0; }     /* needs V */
 int zd_point_is_finite(const zd_point *point);      /* true if p and v are finite */
 
+/* Checks that the user functions are defined at the point, whose quantities x may be off by atol + rtol |x|. */
+static inline int zd_point_check_domain(const zd_point *point, double rtol, double atol)
+{
+    const zd_system *system = point->system;
+    if (!system->check_domain) return ZD_DONE;
+    return system->check_domain(system->data, rtol, atol, point->t, point->p, point->v, point->terms.scratch);
+}
+
 /* Evaluates the terms in `want` that the system provides and that are not known yet. */
 static inline int zd_point_need(zd_point *point, int want)
 {

@@ -242,6 +242,7 @@ static int check(zd_run *run, const workspace *work, const double *p0, const dou
     if (!status) status = check_quaternions(run);
     if (!status) status = check_mass(run, work->factor);
     if (!status) status = zd_consistency_jacobian(&run->safeguards.consistency, 0);
+    if (!status) status = zd_point_check_domain(motion->point, 0, 0);
     if (!status) status = zd_motion_accelerate(motion);
     if (!status) status = check_tolerance(run);
     if (!status) status = zd_motion_start_energy(motion);
@@ -291,6 +292,7 @@ static int check_elsewhere(zd_run *run, const workspace *work, const double *p0,
 {
     zd_motion *motion = &run->motion;
     int status = zd_point_is_finite(motion->point) ? check_constraints(run, work->Psi) : ZD_NOT_FINITE;
+    if (!status) status = zd_point_check_domain(motion->point, 0, 0);
     if (!status) status = check_mass(run, work->factor);
     if (!status) status = check_tolerance(run);
     if (!status) status = zd_motion_start_energy(motion);

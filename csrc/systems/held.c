@@ -206,6 +206,7 @@ static void *create(zd_arena *arena, const void *of)
     self->system.magnitudes = inner->magnitudes ? magnitudes : NULL;
     self->system.magnitudes_scratch += 2 * zd_constraints(inner);
     self->system.force_magnitudes = NULL;
+    self->system.check_domain = NULL;
     self->system.closed_form = NULL;
     self->system.closed_forms = 0;
     self->system.residuals = NULL;

@@ -85,6 +85,7 @@ zd_system zd_perturbed(zd_perturbation *perturbation)
     system.follow = system.follow ? follow : NULL;
     system.magnitudes = system.magnitudes ? magnitudes : NULL;
     system.force_magnitudes = NULL;
+    system.check_domain = NULL;
     system.closed_form = NULL;
     system.closed_forms = 0;
     system.series = perturbation->series;      /* Taylor series of the perturbed terms */

@@ -73,7 +73,13 @@ def linkage(**drive):
 TIMES = np.linspace(0, 1, 11)
 LAWS = {
     "table of angles": {"angle": zd.table(TIMES, 0.2 * TIMES**3)}, "table of speeds": {"speed": zd.table(TIMES, TIMES**2)},
-    "table of torques": {"torque": zd.table(TIMES, np.sin(TIMES))}, "angle": {"angle": sp.sin(3 * t) * sp.exp(-t / 2) + 0.3 * t},
+    "table of torques": {"torque": zd.table(TIMES, np.sin(TIMES))},
+    "period": {"angle": zd.table(TIMES / 40, np.sin(2 * np.pi * TIMES), beyond="period")},
+    "line": {"speed": zd.table(TIMES / 40, TIMES**2, kind="linear", beyond="line")},
+    "hold": {"torque": zd.table(TIMES / 40, TIMES**2, kind="steps", beyond="hold")},
+    "grid": {"torque": zd.table((TIMES, TIMES / 40), np.outer(TIMES, TIMES) + 1, argument=("q", "t"), beyond="line"),
+             "of": {"q": "pin.angle"}},
+    "angle": {"angle": sp.sin(3 * t) * sp.exp(-t / 2) + 0.3 * t},
     "speed": {"speed": sp.tanh(4 * t)}, "speed of a measure": {"speed": sp.cos(sp.Symbol("pin.angle"))},
     "cases": {"torque": sp.Piecewise((2.5, t < 0.02), (sp.log(1 + t), True))},
     "functions": {"torque": sp.sqrt(1 + t) * sp.atan2(t, 2) - sp.Abs(t - 0.02) + sp.erf(t) * sp.floor(100 * t) / sp.cosh(t)},

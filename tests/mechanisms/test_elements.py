@@ -7,7 +7,7 @@ from scipy.integrate import solve_ivp
 
 import zerodrift as zd
 from support import called, refused
-from zerodrift.mechanisms.building.periodic_spline import PeriodicSpline
+from zerodrift.mechanisms.building.periodic_spline import periodic_spline
 from zerodrift.systems.autodiff import Jet
 
 LAYOUTS = ("joint", "absolute")
@@ -77,25 +77,25 @@ def test_a_cam_lifts_its_follower(layout, profile, error):
 def test_a_periodic_spline_goes_through_its_table_and_is_smooth():
     rng = np.random.default_rng(0)
     angles, values = np.sort(rng.uniform(0, 6, 9)), rng.normal(size=9)
-    spline = PeriodicSpline("profile", angles, values)
+    spline = periodic_spline("profile", angles, values)
     np.testing.assert_allclose([spline(angle) for angle in angles], values, atol=1e-12)
     np.testing.assert_allclose([spline(angle + 4 * np.pi) for angle in angles], values, atol=1e-11)
     for knot in angles:
         before, after = (spline(Jet(knot + side, 0.0, 1.0, 0.0)) for side in (-1e-9, 1e-9))
         for part in ("value", "first", "second"):
             assert getattr(before, part) == pytest.approx(getattr(after, part), abs=1e-5)
-    exact = PeriodicSpline("profile", *table())
+    exact = periodic_spline("profile", *table())
     assert max(abs(exact(a) - 0.1 * (1 - np.cos(a))) for a in np.linspace(0, 20, 77)) < 1e-8
 
 
 def test_a_table_may_end_where_its_turn_closes():
     angles, values = table()
-    closed = PeriodicSpline("profile", np.append(angles, 2 * np.pi), np.append(values, values[0]))
-    once = PeriodicSpline("profile", angles, values)
+    closed = periodic_spline("profile", np.append(angles, 2 * np.pi), np.append(values, values[0]))
+    once = periodic_spline("profile", angles, values)
     assert [closed(angle) for angle in np.linspace(0, 20, 7)] == [once(angle) for angle in np.linspace(0, 20, 7)]
     for end, value in ((2 * np.pi, values[0] + 1e-3), (2 * np.pi + 0.1, values[0])):
         with refused("not-increasing"):
-            PeriodicSpline("profile", np.append(angles, end), np.append(values, value))
+            periodic_spline("profile", np.append(angles, end), np.append(values, value))
 
 
 def test_a_wheel_rolls_down_a_slope_without_slipping(layout):

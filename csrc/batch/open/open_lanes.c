@@ -42,12 +42,15 @@ static zd_open_lanes *lay_out(zd_arena *arena, const zd_open_runs *runs, int64_t
     zd_lanes_create(&self->lanes, arena, run, functions, closed_form, runs->doubles);
     self->lanes.rounds_products = 1;
     self->lanes.end = INFINITY;
+    if (run->motion.system.check_domain) self->lanes.watches = ZD_WATCHES_STEPS;
     self->lanes.steps = -1;         /* no step is the last one */
     self->numbers = self->lanes.states * functions->lanes;
     self->image = zd_arena_doubles(arena, (size_t)groups * self->numbers);
     self->place = zd_arena_bytes(arena, count * sizeof *self->place);
     self->inputs = zd_lane_inputs_create(arena, runs, first, count);
     self->goal = zd_arena_bytes(arena, functions->lanes * sizeof *self->goal);
+    self->y = zd_arena_doubles(arena, (size_t)self->lanes.size);
+    self->scratch = zd_arena_doubles(arena, (size_t)run->motion.system.scratch);
     return here;
 }
 
@@ -168,11 +171,18 @@ static void begin(zd_open_lanes *self, int64_t group, int64_t steps, double t)
     }
 }
 
-/* Makes the full checks of the last step that are due. */
-static void check(zd_open_lanes *self)
+/* Makes the full checks of the last step that are due. A run whose user functions end there makes the step again by itself, which reports
+ * it. */
+static void check(zd_open_lanes *self, int64_t group)
 {
     zd_lanes *lanes = &self->lanes;
     int any = 0;
+    for (int lane = 0; lane < lanes->lanes; lane++) {
+        if (lanes->is_active[lane] == 0 || !lanes->watches) continue;
+        const zd_system *system = &self->runs->run[run_of(self, group, lane)]->motion.system;
+        zd_lane_store(lanes, lane, lanes->size, lanes->y, self->y);
+        if (system->check_domain(system->data, 0, 0, lanes->t[lane], self->y, self->y + lanes->nq, self->scratch)) lanes->is_long[lane] = 1;
+    }
     for (int lane = 0; lane < lanes->lanes; lane++) {
         lanes->is_wanted[lane] = lanes->is_active[lane] != 0 && lanes->number[lane] >= lanes->next_check[lane];
         any |= lanes->is_wanted[lane] != 0;
@@ -209,7 +219,7 @@ static void advance_lanes(zd_open_lanes *self, int64_t group, int64_t steps, dou
     if (are_to_choose(lanes)) self->functions->choose(lanes);
     while (count_active(self, group)) {
         self->functions->advance(lanes);
-        check(self);
+        check(self, group);
     }
 }
 

@@ -38,6 +38,7 @@ struct zd_open_lanes {
     zd_lane_slot *place;   /* (count,) */
     zd_lane_inputs inputs;
     int64_t *goal;          /* (lanes,): step at which each lane of the present group stops */
+    double *y, *scratch;    /* (size,): state of one lane; for functions of its system */
 };
 
 /* Inputs of open runs in lanes. */

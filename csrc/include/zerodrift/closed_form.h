@@ -56,10 +56,18 @@ typedef struct zd_closed_form {
     const zd_elimination *embedding;    /* (embeddings,) with embed() instead of accelerate() and finish(); for one lane only */
 } zd_closed_form;
 
-/* Piecewise cubic: for each knot its abscissa, and coefficients of powers 3, 2, 1, 0 of the distance from it, valid to the next. */
+/* Piecewise cubic: for each knot its abscissa, and coefficients of powers 3, 2, 1, 0 of the distance from it, valid to the next. The last
+ * knot ends it: in place of coefficients it has how the spline goes on beyond its ends (enum zd_beyond), 0, 0, and the change of the value
+ * over a period. */
 typedef struct zd_spline {
     int knots;              /* at least 2 */
     const double *knot;     /* (knots, 5) */
 } zd_spline;
+
+enum zd_beyond {
+    ZD_BEYOND_ERROR,        /* first and last piece continue, in trial evaluations; an accepted state there is an error */
+    ZD_BEYOND_CONTINUES,    /* first and last piece continue */
+    ZD_BEYOND_REPEATS       /* the pieces repeat, with the change added at each period */
+};
 
 #endif

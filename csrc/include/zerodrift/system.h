@@ -32,7 +32,7 @@
 #include "terms.h"
 
 /* Changes with any declaration here and in these headers that compiled code depends on. */
-enum { ZD_INTERFACE_VERSION = 6 };
+enum { ZD_INTERFACE_VERSION = 7 };
 
 /* ---- measures, inputs, groups ---- */
 
@@ -178,6 +178,9 @@ typedef struct zd_system {
     int (*force_magnitudes)(const void *data, const double *inputs, double t, const double *p, const double *v, double *magnitude,
                             double *scratch);
     const zd_reading *reading;      /* user functions that read reactions; NULL: there are none */
+    /* Checks that user functions are defined at a state that may be off by atol + rtol |x| of each quantity x; evaluate() may be called
+     * beyond, in trial stages. `scratch` is that of evaluate(). Returns as evaluate() does. NULL: they are defined wherever it succeeds. */
+    int (*check_domain)(const void *data, double rtol, double atol, double t, const double *p, const double *v, double *scratch);
 } zd_system;
 
 /* ---- a kind of system: with parameters, names, a start and a drawing ---- */

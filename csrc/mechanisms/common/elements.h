@@ -86,6 +86,7 @@ typedef int zd_law(void *owner, int law, double t, const double *x, const double
 typedef struct zd_law_program {
     const zd_expressions *expressions;      /* NULL: there are none */
     const double *numbers;
+    int has_ends;               /* 1 if it may have a table whose ends are an error */
 } zd_law_program;
 
 enum { ZD_MAX_LEAST = 200 };       /* largest number of constraints for which reactions are the least ones: work grows with its cube */

@@ -18,18 +18,52 @@ static int has_said(const zd_law_program *program, const zd_readings *at, double
     return all_finite(at->out, count);
 }
 
-/* out (count,) <- values of user function `law`. If its expressions have values that are not finite, the function is called, as it
- * reports the reason. */
-static int ask(const zd_planned_elements *elements, const zd_readings *at, int law, int first, int terms, double t, int count)
+static void read_terms(const zd_planned_elements *elements, const zd_readings *at, int first, int terms)
 {
     for (int i = 0; i < terms; i++) {
         const int quantity = elements->term[first + i].quantity;
         at->x[i] = zd_value_of(at, quantity);
         at->xdot[i] = zd_rate_of(at, quantity);
     }
-    if (elements->program && has_said(elements->program + law, at, t, count)) return ZD_DONE;
+}
+
+static int call(const zd_planned_elements *elements, const zd_readings *at, int law, double t)
+{
     const int status = elements->law(elements->owner, law, t, at->x, at->xdot, at->out);
     return !status || status == ZD_NOT_FINITE ? status : ZD_CALLBACK;
+}
+
+/* out (count,) <- values of user function `law`. If its expressions have values that are not finite, the function is called, as it
+ * reports the reason. */
+static int ask(const zd_planned_elements *elements, const zd_readings *at, int law, int first, int terms, double t, int count)
+{
+    read_terms(elements, at, first, terms);
+    if (elements->program && has_said(elements->program + law, at, t, count)) return ZD_DONE;
+    return call(elements, at, law, t);
+}
+
+/* ---- domain ---- */
+
+/* Calls the function where its expressions are not defined: it reports the reason, or is defined after all. */
+static int check(const zd_planned_elements *elements, const zd_readings *at, int law, int first, int terms, double rtol, double atol,
+                 double t)
+{
+    const zd_law_program *program = elements->program + law;
+    if (law < 0 || !elements->program || !program->has_ends) return ZD_DONE;
+    read_terms(elements, at, first, terms);
+    if (zd_expressions_are_defined(program->expressions, program->numbers, rtol, atol, t, at->x, at->xdot)) return ZD_DONE;
+    return call(elements, at, law, t);
+}
+
+int zd_laws_check(const zd_planned_elements *elements, const zd_readings *at, double rtol, double atol, double t)
+{
+    int status = ZD_DONE;
+    for (const zd_relation *row = elements->row; row < elements->row + elements->m && !status; row++)
+        status = check(elements, at, row->law, row->first, row->terms, rtol, atol, t);
+    for (const zd_generalized_force *force = elements->force; force < elements->force + elements->forces && !status; force++)
+        if (force->kind == ZD_FORCE_LAW && !elements->reading.functions)        /* else zd_force_read() checks it */
+            status = check(elements, at, force->law, force->first, force->terms, rtol, atol, t);
+    return status;
 }
 
 /* Without a law: sum of factors x - constant - slope t; of a nonholonomic one with xdot in place of x. */
@@ -80,7 +114,7 @@ int zd_force_read(const zd_planned_elements *elements, const zd_readings *at, in
         if (read->function == law) *x++ = r[read->reaction];
     const int status = ask(elements, at, law, force->first, force->terms, t, 1);
     *u = at->out[0];
-    return status;
+    return status ? status : check(elements, at, law, force->first, force->terms, 0, 0, t);
 }
 
 int zd_forces_power(const zd_planned_elements *elements, const zd_readings *at, double t, double *power)

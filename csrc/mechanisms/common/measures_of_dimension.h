@@ -68,6 +68,17 @@ int OF(read)(const void *data, int law, double t, const double *p, const double 
     return zd_measures_read(&measuring, law, &(zd_measured_state){t, p, v, NULL, NULL, 0, NULL}, r, is_same_state, u);
 }
 
+int OF(check_domain)(const void *data, double rtol, double atol, double t, const double *p, const double *v, double *scratch)
+{
+    const MECHANISM *self = data;
+    OF(frame) frame;
+    OF(frame_of)(self, scratch, &frame);
+    const zd_readings readings = OF(frame_readings)(self, &frame);
+    place(self, &frame, p);
+    move(self, &frame, v);
+    return zd_laws_check(&self->elements, &readings, rtol, atol, t);
+}
+
 zd_measures OF(measures)(const MECHANISM *self, zd_measure *measure)
 {
     const int count = self->measures.count;

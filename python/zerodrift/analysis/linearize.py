@@ -102,6 +102,8 @@ def _state(system: BaseSystem, at: Any, v: Any) -> State:
             raise WrongType(f"at must be an equilibrium, an instant such as sol.at(t), or (t, p, v), "
                             f"not {checks.shown(at)}") from None
     here = state(system, checks.number("t", t), checks.vector("p", p, system.nq), checks.vector("v", v, system.nv))
+    if not hasattr(at, "p"):
+        core_of(system).check_domain(here.t, here.p, here.v)
     scale = scales(system, here.p)
     speed = scale.length * (1.0 + np.abs(here.v / scale.v).max(initial=0.0))
     if _rest(at) is not None:

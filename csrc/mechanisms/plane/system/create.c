@@ -242,6 +242,7 @@ static void make_system(const zd_plane_tables *tables, const parts *from, int co
         .nq = coordinates, .nv = coordinates, .mh = self->elements.mh, .mn = self->elements.m - self->elements.mh,
         .provides = terms_of(tables, self, has_tree(tables)),
         .evaluate = zd_plane_evaluate,
+        .check_domain = tables->elements.law ? zd_plane_check_domain : NULL,
         .data = self,
         .lengths = from->lengths,
         .length = zd_plane_tables_length(tables),

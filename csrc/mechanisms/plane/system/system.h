@@ -26,6 +26,8 @@ double zd_plane_potential(const zd_plane *self, const zd_plane_frame *frame);
 
 /* Names and sizes of the mechanism's measures, in `measure`. */
 zd_measures zd_plane_measures(const zd_plane *self, zd_measure *measure);
+/* zd_system.check_domain() */
+int zd_plane_check_domain(const void *data, double rtol, double atol, double t, const double *p, const double *v, double *scratch);
 /* zd_reading.evaluate() */
 int zd_plane_read(const void *data, int law, double t, const double *p, const double *v, const double *r, int is_same_state, double *u,
                   double *scratch);

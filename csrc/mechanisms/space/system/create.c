@@ -129,6 +129,7 @@ static void make_system(const zd_space_tables *tables, const parts *from)
         .provides = ZD_A | ZD_M | ZD_BIAS | ZD_POTENTIAL | ZD_FORCE | zd_elements_terms(&tables->elements, &self->elements),
         .force_magnitudes = zd_space_force_magnitudes,
         .evaluate = zd_space_evaluate,
+        .check_domain = tables->elements.law ? zd_space_check_domain : NULL,
         .data = self,
         .lengths = from->lengths,
         .length = length_of(tables),

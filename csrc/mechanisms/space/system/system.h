@@ -25,6 +25,8 @@ double zd_space_potential(const zd_space *self, const zd_space_frame *frame);
 
 /* Evaluator of the outputs in self->elements.output; their self->measures.count descriptions are written to `measure`. */
 zd_measures zd_space_measures(const zd_space *self, zd_measure *measure);
+/* zd_system.check_domain() */
+int zd_space_check_domain(const void *data, double rtol, double atol, double t, const double *p, const double *v, double *scratch);
 /* zd_reading.evaluate() */
 int zd_space_read(const void *data, int law, double t, const double *p, const double *v, const double *r, int is_same_state, double *u,
                   double *scratch);

@@ -285,6 +285,13 @@ class CoreSystem(Measuring):
         terms = magnitude[:len(C), is_angle]
         return np.where((np.abs(C) <= CANCELLED * terms).all(axis=1, keepdims=True), 0.0, C)
 
+    def check_domain(self, t: float, p: np.ndarray, v: np.ndarray) -> None:
+        """Check that all user functions are defined at a state: that no table has an argument beyond its ends."""
+        core, scratch = self.for_run(), np.zeros(self.c.scratch + 1)
+        if core.c.check_domain and core.c.check_domain(core.c.data, 0.0, 0.0, t, doubles(p, self.nq), doubles(v, self.nv),
+                                                       doubles(scratch, scratch.size, writable=True)):
+            raise core.error or error_of(lib.ZD_CALLBACK, "a user function is not defined")
+
     def force_magnitudes(self, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray | None:
         """Sums of the magnitudes of the terms of f (nv,) before they cancel; None where the system does not provide them."""
         if not self.c.force_magnitudes:

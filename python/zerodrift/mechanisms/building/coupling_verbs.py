@@ -12,7 +12,7 @@ from ...laws.formula import Formula, of_expression
 from ..elements.joints import Coupling, Joint
 from ..elements.measures import Measure, name_of
 from ..equations.measure_names import checked_reading
-from .periodic_spline import PeriodicSpline
+from .periodic_spline import periodic_spline
 from .registry import Elements
 
 
@@ -190,7 +190,7 @@ class CouplingVerbs(Elements):
         if isinstance(profile, tuple):
             if len(profile) != 2:
                 raise WrongValue(f"profile of {name!r} must be (angles, values), not {len(profile)} things", "shape")
-            profile = PeriodicSpline(f"profile of {name!r}", *profile)
+            profile = periodic_spline(f"profile of {name!r}", *profile)
         elif isinstance(profile, Formula) or hasattr(profile, "free_symbols"):
             profile = _Profile(f"profile of {name!r}", profile)
         elif not callable(profile):
@@ -290,6 +290,7 @@ class _Follows:
 
     def __init__(self, profile: Any) -> None:
         self.profile = profile
+        self.tables = getattr(profile, "tables", [])
 
     def __call__(self, angle: Any, follower: Any) -> Any:
         return follower - self.profile(angle)

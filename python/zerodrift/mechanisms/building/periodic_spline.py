@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from ..._private import checks
+from ..._private import checks, gateway
 from ...errors import WrongValue
-from ...symbolics.graph.plain_functions import FLOOR
-from ...systems import autodiff
+from ...laws.splines import NEIGHBOURS
+from ...laws.table import REPEATS, Spline, Table
 
 PERIOD = 2 * np.pi
 CLOSING = 1e-9      # rad, and of the largest value: how near the last point of a table is to its first where it closes the turn
@@ -18,12 +18,16 @@ CLOSING = 1e-9      # rad, and of the largest value: how near the last point of 
 # y1''), columns 1, s, ..., s**5.
 HERMITE = np.array([[1, 0, 0, -10, 15, -6], [0, 1, 0, -6, 8, -3], [0, 0, 0.5, -1.5, 1.5, -0.5],
                     [0, 0, 0, 10, -15, 6], [0, 0, 0, -4, 7, -3], [0, 0, 0, 0.5, -1, 0.5]])
-# Their third and fourth derivatives at both ends.
-BEND = np.array([[HERMITE[i] @ np.array([0, 0, 0, 6, 24 * s, 60 * s**2]) for i in range(6)] for s in (0.0, 1.0)])
-TWIST = np.array([[HERMITE[i] @ np.array([0, 0, 0, 0, 24, 120 * s]) for i in range(6)] for s in (0.0, 1.0)])
 
 
-class PeriodicSpline:
+class _Part(Spline):
+    """Spline in products whose sum is smooth."""
+
+    def jump(self, derivatives: int) -> None:
+        """Nowhere, of the sum."""
+
+
+def periodic_spline(what: str, angles: Any, values: Any) -> Table:
     """The quintic spline through a table over one turn; it has four continuous derivatives, so that a cam jerks nowhere.
 
     Parameters
@@ -32,68 +36,45 @@ class PeriodicSpline:
         The table: angles in rad, increasing, within less than one turn; at least three. A last point one turn after the first
         may be there, with the same value.
     """
+    angles = np.asarray(checks.real(f"angles of {what} must hold", angles), dtype=float)
+    n = angles.size
+    if angles.ndim != 1 or n < 3:
+        raise WrongValue(f"angles of {what} must have shape (n,) with n at least 3, not {angles.shape}", "shape")
+    values = checks.vector(f"values of {what}", values, n)
+    closes = abs(angles[-1] - angles[0] - PERIOD) < CLOSING and abs(values[-1] - values[0]) <= CLOSING * np.abs(values).max()
+    if n > 3 and closes:        # it says the same at both ends
+        angles, values = angles[:-1], values[:-1]
+    ends = np.append(angles, angles[0] + PERIOD)
+    widths = np.diff(ends)
+    if not (widths > 0).all():
+        raise WrongValue(f"angles of {what} must increase and lie within one turn (a point at its end has the value of the "
+                         f"first), not {checks.shown(angles)}", "not-increasing")
+    made = Table(_products(ends, _coefficients(widths, values)), f"{n} points of a turn")
+    made.written_as = {"angles": angles.tolist(), "values": values.tolist()}
+    return made
 
-    def __init__(self, what: str, angles: Any, values: Any) -> None:
-        self.angles = np.asarray(checks.real(f"angles of {what} must hold", angles), dtype=float)
-        n = self.angles.size
-        if self.angles.ndim != 1 or n < 3:
-            raise WrongValue(f"angles of {what} must have shape (n,) with n at least 3, not {self.angles.shape}", "shape")
-        self.values = checks.vector(f"values of {what}", values, n)
-        self._drop_closing_point()
-        n = self.angles.size
-        self._widths = np.diff(self.angles, append=self.angles[0] + PERIOD)
-        if not (self._widths > 0).all():
-            raise WrongValue(f"angles of {what} must increase and lie within one turn (a point at its end has the value of the "
-                             f"first), not {checks.shown(angles)}", "not-increasing")
-        self._coefficients = self._solve(n)
 
-    def _drop_closing_point(self) -> None:
-        """A table that says the same at both ends of a turn says it once."""
-        span, size = self.angles[-1] - self.angles[0], np.abs(self.values).max()
-        if self.angles.size > 3 and abs(span - PERIOD) < CLOSING and abs(self.values[-1] - self.values[0]) <= CLOSING * size:
-            self.angles, self.values = self.angles[:-1], self.values[:-1]
+def _coefficients(widths: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """The coefficients (n, 6) of the pieces, from a turn amid so many that the ends are not felt."""
+    n, turns = values.size, -(-NEIGHBOURS // values.size)
+    t = np.append(0.0, np.cumsum(np.tile(widths, 2 * turns + 1)))
+    value, rate, second = at = np.zeros((3, t.size, 1))
+    value[:, 0] = np.append(np.tile(values, 2 * turns + 1), values[0])
+    gateway.quintic_spline(t, value, rate, second)
+    at, scale = at[:, turns * n:, 0].T[:n + 1], widths[:, None]**np.arange(3)
+    return np.hstack([at[:-1] * scale, at[1:] * scale]) @ HERMITE
 
-    def _solve(self, n: int) -> np.ndarray:
-        """The coefficients (n, 6) of the pieces: third and fourth derivatives are the same on both sides of every knot."""
-        matrix, right = np.zeros((2 * n, 2 * n)), np.zeros(2 * n)
-        for knot in range(n):
-            for piece, end, sign in ((knot - 1, 1, 1.0), (knot, 0, -1.0)):
-                width = self._widths[piece]
-                for row, ends, power in ((2 * knot, BEND, 3), (2 * knot + 1, TWIST, 4)):
-                    weight = sign * ends[end] / width**power
-                    for side, place in ((0, piece % n), (1, (piece + 1) % n)):
-                        right[row] -= weight[3 * side] * self.values[place]
-                        matrix[row, 2 * place] += weight[3 * side + 1] * width
-                        matrix[row, 2 * place + 1] += weight[3 * side + 2] * width**2
-        slopes = np.linalg.solve(matrix, right).reshape(n, 2)
-        ends = np.stack([np.column_stack([self.values, slopes[:, 0] * self._widths, slopes[:, 1] * self._widths**2]),
-                         np.column_stack([np.roll(self.values, -1), np.roll(slopes[:, 0], -1) * self._widths,
-                                          np.roll(slopes[:, 1], -1) * self._widths**2])], axis=1)
-        return ends.reshape(n, 6) @ HERMITE
 
-    def __call__(self, angle: Any) -> Any:
-        turns = np.floor((autodiff.value(angle) - self.angles[0]) / PERIOD)
-        angle = angle - turns * PERIOD
-        piece = min(int(np.searchsorted(self.angles, autodiff.value(angle), side="right")) - 1, len(self.angles) - 1)
-        s = (angle - self.angles[max(piece, 0)]) / self._widths[max(piece, 0)]
-        value = 0.0
-        for coefficient in self._coefficients[max(piece, 0)][::-1]:
-            value = value * s + coefficient
-        return value
+def _products(ends: np.ndarray, coefficients: np.ndarray) -> list[list[Spline]]:
+    """Its cubic part, and the fourth and fifth powers of the share of the way to the next point."""
+    def spline(*powers: Any) -> Spline:     # 3, 2, 1, 0
+        knots = np.zeros((ends.size, 5))
+        knots[:, 0], knots[-1, 1] = ends, REPEATS
+        for i, power in enumerate(powers):
+            knots[:-1, 1 + i] = power
+        return _Part(knots, "angle")
 
-    def written(self, equations: Any, angle: Any) -> Any:
-        """Node of the value, from the node of an angle: the piece's numbers are chosen, so that one polynomial is computed."""
-        graph, first = equations.graph, float(self.angles[0])
-        turns = graph.call(FLOOR, graph.sum([(angle, 1 / PERIOD), (graph.one, -first / PERIOD)]))
-        within = graph.sum([(angle, 1), (turns, -PERIOD)])
-        conditions = [graph.comparison("<", within, graph.number(float(end))) for end in self.angles[1:]]
-
-        def chosen(numbers: np.ndarray) -> Any:
-            *cases, last = (graph.number(float(number)) for number in numbers)
-            return graph.choice(tuple(zip(conditions, cases, strict=True)), last)
-
-        s = graph.times(equations.difference(within, chosen(self.angles)), chosen(1 / self._widths))
-        value = graph.zero
-        for column in self._coefficients.T[::-1]:
-            value = graph.plus(graph.times(value, s), chosen(column))
-        return value
+    scale, (value, slope, square, cubic, fourth, fifth) = 1 / np.diff(ends), coefficients.T
+    share = spline(0, 0, scale, 0)
+    return [[spline(cubic * scale**3, square * scale**2, slope * scale, value)], [spline(0, 0, 0, fourth), *[share] * 4],
+            [spline(0, 0, 0, fifth), *[share] * 5]]

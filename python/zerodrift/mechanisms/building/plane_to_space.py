@@ -17,7 +17,6 @@ from ..elements.space_joints import BY_KIND
 from ..elements.table_forces import TableForce
 from ..elements.user_functions import Law
 from .coupling_verbs import _Follows, _Profile, _Sum
-from .periodic_spline import PeriodicSpline
 from .table_verbs import FORCES, PLANE
 
 NORMAL = (0.0, 0.0, 1.0)
@@ -200,9 +199,7 @@ def _coupling(m: Any, coupling: Any) -> None:
 def _cam(m: Any, coupling: Any) -> None:
     follows: _Follows = coupling.law._function
     profile = follows.profile
-    if isinstance(profile, PeriodicSpline):
-        profile = profile.angles, profile.values
-    elif isinstance(profile, _Profile):
+    if isinstance(profile, _Profile):
         profile = profile.formula
     m.cam(coupling.name, coupling.of[0].rpartition(".")[0], coupling.of[1], profile=profile)
 

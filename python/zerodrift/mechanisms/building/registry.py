@@ -189,6 +189,8 @@ class Elements:
                                  "wrong-measure")
         if dynamic:
             law.read(dynamic)
+        if not reactions:
+            law.check_smooth(what.split()[0] not in ("speed", "nonholonomic"))
         return law
 
     def _check_measured(self, what: str, measure: str) -> None:

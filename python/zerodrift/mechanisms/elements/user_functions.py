@@ -13,7 +13,7 @@ from ..._private import checks
 from ...errors import WrongType, WrongValue, sentence
 from ...laws import recording
 from ...laws.formula import Formula, of_expression
-from ...laws.table import Table, recognised
+from ...laws.table import Spline, recognised
 from ...systems import autodiff
 from ...systems.user_callables import arguments
 from .measures import name_of
@@ -168,11 +168,17 @@ class Law:
                              f"{self.why_called}", "not-portable")
 
     @property
-    def tables(self) -> list[Table]:
-        """Tables that it reads, or the one that it is."""
-        if self.formula is not None:
-            return self.formula.tables
-        return [self._function] if isinstance(self._function, Table) else []
+    def tables(self) -> list[Spline]:
+        """Splines of the tables that it reads, or of the one that it is."""
+        return getattr(self._function, "tables", []) if self.formula is None else self.formula.tables
+
+    def check_smooth(self, derivatives: int) -> None:
+        """Check that tables do not jump, with 1 also that their slopes do not."""
+        for each in self.tables:
+            if (x := each.jump(derivatives)) is not None:
+                raise WrongValue(f"{self.what} must have no jump of its speed, and that of the table jumps at "
+                                 f"{each.argument} = {x:g}: "
+                                 'give kind="smooth", with beyond="error", "line" or "period"', "user-function")
 
     @property
     def has_nodes(self) -> bool:
@@ -223,7 +229,7 @@ class InputLaw:
     measures: tuple[str, ...] = ()
     reactions: Mapping[str, str] = MappingProxyType({})
     names: tuple[str, ...] = ()
-    tables: Sequence[Table] = ()
+    tables: Sequence[Spline] = ()
     constant = formula = None
     is_plain, has_nodes, why_called = True, True, ""
 

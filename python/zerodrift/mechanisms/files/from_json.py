@@ -175,8 +175,12 @@ def _coupler(m: Any, name: str, *, law: Any = None, sum: Any = None) -> None:
 
 
 def _cam(m: Any, name: str, *, cam: Any, follower: Any, profile: Any) -> None:
-    is_table = isinstance(profile, Mapping) and set(profile) == {"angles", "values"}
-    given = (profile["angles"], profile["values"]) if is_table else from_json(profile, "profile")
+    if isinstance(profile, Mapping) and set(profile) == {"angles", "values"}:
+        given: Any = profile["angles"], profile["values"]
+    elif isinstance(profile, Mapping):
+        given, _ = law_and_of({**profile, "of": None}, "profile")
+    else:
+        given = from_json(profile, "profile")
     m.cam(name, cam, follower, profile=given)
 
 

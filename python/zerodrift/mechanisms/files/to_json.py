@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from ...laws.table import Table
 from ..building.coupling_verbs import _Follows, _Profile, _Sum
-from ..building.periodic_spline import PeriodicSpline
 from ..building.table_verbs import FORCES
 from ..elements.bodies import kind_of
 from ..elements.drawing import Drawing
@@ -101,8 +101,8 @@ def _coupling(coupling: Any, drawing: Drawing) -> dict[str, Any]:
 
 def _cam(coupling: Any, drawing: Drawing) -> dict[str, Any]:
     profile = coupling.law._function.profile if isinstance(coupling.law._function, _Follows) else None
-    if isinstance(profile, PeriodicSpline):
-        written: Any = {"angles": profile.angles.tolist(), "values": profile.values.tolist()}
+    if isinstance(profile, Table):
+        written: Any = profile.written_as or {"table": profile.to_json()}
     elif isinstance(profile, _Profile):
         written = to_json(profile.formula, coupling.law.what)
     else:       # the constraint is that of the follower, less the profile

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..._private import checks
 from ...errors import WrongValue
+from ...laws import table
 from ..elements.bodies import Point
 from .expressions_json import from_json
 
@@ -37,8 +38,11 @@ def law_and_of(given: Any, what: str) -> tuple[Any, Any]:
     """Arguments of a method for a user function: its value and its `of`."""
     if not isinstance(given, Mapping):
         return given, None
+    if set(given) == {"table", "of"}:
+        return table.from_json(given["table"]), given["of"]
     if set(given) != {"expression", "of"}:
-        raise WrongValue(f"{what} must be a number, or have an expression and of, not {checks.shown(given)}", "unreadable-file")
+        raise WrongValue(f"{what} must be a number, or have an expression or a table, and of, not {checks.shown(given)}",
+                         "unreadable-file")
     return from_json(given["expression"], what), given["of"]
 
 

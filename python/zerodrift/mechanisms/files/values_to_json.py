@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import WrongValue
+from ...laws.table import Table
 from ..elements.bodies import Particle, Point, _Center
 from ..elements.drawing import Drawing
 from ..elements.user_functions import Law
@@ -41,17 +42,18 @@ def sides(element: Any, drawing: Drawing) -> dict[str, Any]:
 
 
 def law_to_json(law: Law) -> Any:
-    """JSON of a user function: a number, or an expression and the measures of its names."""
+    """JSON of a user function: a number, or an expression or a table and the measures of its names."""
     if law.constant is not None:
         return law.constant
     bound = {name: measure for name, measure in law._bound.items() if "." not in name}
+    if isinstance(law._function, Table):
+        return {"table": law._function.to_json(), "of": bound}
     return {"expression": formula_to_json(law), "of": bound}
 
 
 def formula_to_json(law: Law, leaves: Mapping[str, Any] = MappingProxyType({})) -> Any:
     """JSON of an expression, or of a function that could be recorded; `leaves` replace some of its names."""
     if law.formula is None:
-        why = law.why_called or "is a table, or reads one"
-        raise WrongValue(f"{law.what} must be a number, an expression or a function that can be recorded, to be saved: it {why}",
-                         "not-portable")
+        raise WrongValue(f"{law.what} must be a number, an expression or a function that can be recorded, to be saved: it "
+                         f"{law.why_called}", "not-portable")
     return to_json(law.formula, law.what, leaves)

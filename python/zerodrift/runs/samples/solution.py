@@ -234,8 +234,8 @@ class Solution(Named):
         True
         """
         t = checks.number("t", t)
-        now = Instant(self.system, t, *self(t))
-        now._inputs = self.settings.get("inputs") or ()
+        (p, v), now = self(t), Instant.__new__(Instant)     # may be beyond the end of a table by the tolerances
+        vars(now).update(system=self.system, t=t, p=p, v=v, _inputs=self.settings.get("inputs") or ())
         return now
 
     def _states_at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -106,6 +106,7 @@ class Instant(Reading):
         p, v = self.system._state_or_start(p, v, "p", "v", self.t)
         self.p, self.v = np.array(p), np.array(v)
         self._inputs: Sequence[str] = ()        # inputs of the run that made this state
+        core_of(self.system).check_domain(self.t, self.p, self.v)
 
     @functools.cached_property
     def _moving(self) -> tuple[np.ndarray, np.ndarray]:

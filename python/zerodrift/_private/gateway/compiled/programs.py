@@ -14,6 +14,7 @@ from ..base import TERMS, Variable, doubles
 from .native import NativeCore
 
 END, SINES, SINES_AT_ONCE, FRAME = lib.ZD_CODE_END, lib.ZD_CODE_SINES, lib.ZD_SINES_AT_ONCE, lib.ZD_FRAME
+BEYOND = lib.ZD_BEYOND_ERROR, lib.ZD_BEYOND_CONTINUES, lib.ZD_BEYOND_REPEATS
 TIMES_PLUS, TIMES_MINUS, MINUS_TIMES = lib.ZD_CODE_TIMES_PLUS, lib.ZD_CODE_TIMES_MINUS, lib.ZD_CODE_MINUS_TIMES
 
 
@@ -126,6 +127,11 @@ def spline(knots: np.ndarray) -> Any:
 def address(spline: Any) -> float:
     """The number that stands for a spline in a program."""
     return float(int(ffi.cast("uintptr_t", spline[0])))
+
+
+def spline_at(address: float, x: float) -> list[float]:
+    """Value and two derivatives at x of the spline that a number stands for."""
+    return [lib.zd_operation(lib.ZD_CODE_SPLINE, address, x, order) for order in range(3)]
 
 
 def with_addresses(numbers: np.ndarray, tables: Mapping[int, Any]) -> np.ndarray:

@@ -110,10 +110,13 @@ class MechanismCore(CoreSystem):
         return mine
 
     def _with_data(self, handle: Any, numbers: Any, programs: tuple[Any, Any] = (ffi.NULL, None)) -> MechanismCore:
+        """Copy with other data; user functions whose tables have no ends are not checked."""
         mine = copy.copy(self)
         data = ffi.new("char[]", self._function("data_size")())
         self._function("with")(self._mechanism, handle, programs[0], numbers, data)
         mine.c = ffi.new("zd_system *", self.c[0])
+        if handle and not (programs[1] and any(row.has_ends for row in programs[0])):
+            mine.c.check_domain = ffi.NULL
         mine.c.data, mine._data, mine._numbers = data, (*self._data, handle, *programs, numbers, data), numbers
         return mine
 

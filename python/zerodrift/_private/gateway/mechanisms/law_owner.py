@@ -63,7 +63,8 @@ def table_of_programs(law: Law, sizes: dict[int, tuple[int, int]]) -> Any:
         return ffi.NULL, None
     arrays = [each and each[1].copy() for each in found]      # inputs are written into those of one run
     kept = [array if array is None else doubles(array, array.size) for array in arrays]
-    rows = [(each[0][0], numbers) if each else (ffi.NULL, ffi.NULL) for each, numbers in zip(found, kept, strict=True)]
+    rows = [(each[0][0], numbers, lib.zd_expressions_have_ends(each[0][0], numbers)) if each else (ffi.NULL, ffi.NULL, 0)
+            for each, numbers in zip(found, kept, strict=True)]
     return ffi.new("zd_law_program[]", rows), (kept, found)
 
 
