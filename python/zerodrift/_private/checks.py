@@ -103,6 +103,7 @@ def names(name: str, value: Any, prefix: str, *, least: int = 1) -> list[str]:
 
 
 DOUBLE = np.dtype(np.float64)
+EXACT = 2.0**53     # below, whole numbers are doubles
 FEW = 64        # up to this many numbers, Python checks faster than NumPy that all are finite
 
 
@@ -115,6 +116,8 @@ def vector(name: str, value: Any, size: int) -> np.ndarray:
     """A fresh, contiguous float64 array of shape (size,), all finite."""
     if _is_plain(value) and value.shape == (size,) and size <= FEW and all(map(math.isfinite, value.tolist())):
         return value.copy()
+    if type(value) is tuple and len(value) == size and all(type(each) in (float, int) and abs(each) < EXACT for each in value):
+        return np.array(value, dtype=np.float64)
     shape = f"{name} must have shape ({size},), not"
     array = real(f"{name} must hold", value, ragged=f"{shape} be")
     if array.shape != (size,):

@@ -26,7 +26,7 @@ class Fixed:
         return self.name
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if not name.startswith("_"):
+        if name[0] != "_":
             if name in self.__dict__:
                 element = self.__dict__.get("name", "")
                 raise WrongAttribute(

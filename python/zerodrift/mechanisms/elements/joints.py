@@ -156,7 +156,7 @@ def holds_angle(row: JointKind) -> bool:
 
 def holds_distance(row: Any) -> bool:
     """True if the joint, in the plane or in space, constrains the distance of two points and nothing else."""
-    return all(quantity == "distance" for quantity, *_ in row.rows)
+    return {each[0] for each in row.rows} <= {"distance"}
 
 
 def draws_length(row: Any) -> bool:
