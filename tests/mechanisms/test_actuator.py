@@ -5,7 +5,7 @@ import pytest
 import sympy as sp
 
 import zerodrift as zd
-from support import refused
+from support import assert_close, refused
 
 t = sp.Symbol("t")
 LAYOUTS = ["joint", "absolute"]
@@ -93,3 +93,33 @@ def test_starts_leave_a_prescribed_length_to_the_actuator():
 def test_a_length_that_cannot_be_reached_is_reported():
     with pytest.raises(zd.InconsistentStart, match=r"cannot be met together; .* 'cylinder' by"):
         zd.simulate(digger(length=3.0), 0.1, step=0.01)
+
+
+def pulled(**law):
+    """A mass on a spring and a damper, which is an actuator if a law is given."""
+    m = zd.Mechanism("pulled", gravity=(0, -9.81))
+    mass = m.particle("mass", 1.0, at=(0.4, 0))
+    if law:
+        m.actuator("k", m.ground.point((0, 0)), mass, **law)
+    else:
+        m.spring("k", m.ground.point((0, 0)), mass, stiffness=50.0, length=0.3, damping=2.0)
+    return m
+
+
+@pytest.mark.parametrize("law", [
+    {"force": lambda length, speed: -50 * (length - 0.3) - 2 * speed},
+    {"force": lambda a, b: -50 * (a - 0.3) - 2 * b, "of": {"a": "k.length", "b": "k.speed"}}], ids=["own names", "of"])
+def test_a_law_names_the_length_and_speed_of_its_own_actuator(law, tmp_path):
+    m, known = pulled(**law), zd.simulate(pulled(), 1.0, step=0.01)
+    assert_close(zd.simulate(m, 1.0, step=0.01).p, known.p, 1e-12, scale=1.0)
+    assert_close(zd.simulate(zd.load(m.save(tmp_path / "m")), 1.0, step=0.01).p, known.p, 1e-12, scale=1.0)
+
+
+def test_a_motor_names_the_angle_and_speed_of_its_joint():
+    m = zd.Mechanism("swing", parameters={"speed": 2.0})
+    link = m.link("link", (0, 0), (1, 0), mass=3.0)
+    pin = m.revolute("pin", m.ground, link.start)
+    m.motor("drive", pin, torque=lambda angle, speed: -5 * angle + speed)     # speed is the parameter
+    sol = zd.simulate(m, 1.0, step=1e-3)
+    omega = np.sqrt(5 / (3.0 / 12 + 3.0 / 4))
+    assert_close(sol["pin.angle"], 0.4 * (1 - np.cos(omega * sol.t)), 1e-10, scale=1.0)

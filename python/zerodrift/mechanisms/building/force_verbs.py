@@ -50,7 +50,8 @@ class ForceVerbs(Elements):
             positions and velocities; and of reactions and accelerations, such as ``"pin.force.x"``. These are solved for
             together with the accelerations; `NoUniqueMotion` is raised where they have no unique solution.
         of : dict of str to measure
-            Measures that the callable receives, by argument name.
+            Measures that the callable receives, by argument name. The joint's own ``angle`` or ``displacement``, and ``speed``,
+            need none: ``torque=lambda speed: 3 - 0.1 * speed``.
 
         Returns
         -------
@@ -84,7 +85,7 @@ class ForceVerbs(Elements):
             raise WrongValue(f"{joint.name!r} has {' and '.join(joint.coordinates)}: motor {name!r} must say which, not speed",
                              "missing-argument")
         law = self._law(f"{drives} of motor {name!r}", given[drives], of, positions=drives not in ("torque", "force"),
-                        reactions=drives in ("torque", "force"))
+                        reactions=drives in ("torque", "force"), own=joint if drives in ("torque", "force") else None)
         if drives in ("angle", "displacement") and law.measures:
             raise WrongValue(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()",
                              "user-function")
@@ -109,7 +110,8 @@ class ForceVerbs(Elements):
         force : float, callable or expression
             Force that pushes the points apart, in N; of the same as the torque of `motor`.
         of : dict of str to measure
-            Measures that the callable receives, by argument name.
+            Measures that the callable receives, by argument name. The actuator's own ``length`` and ``speed`` need none:
+            ``force=lambda length, speed: -100 * (length - 0.3) - 5 * speed`` is a spring and a damper, as a force pushes.
 
         Returns
         -------
@@ -136,7 +138,8 @@ class ForceVerbs(Elements):
             raise WrongType(f"actuator {name!r} needs one of length and force, not {'none' if length is None else 'both'}",
                             "conflicting-arguments")
         drives, given = ("length", length) if force is None else ("force", force)
-        law = self._law(f"{drives} of actuator {name!r}", given, of, reactions=drives == "force")
+        law = self._law(f"{drives} of actuator {name!r}", given, of, reactions=drives == "force",
+                        own=Actuator(name, first, second, drives, None) if drives == "force" else None)
         if drives == "length" and law.measures:
             raise WrongValue(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()",
                              "user-function")

@@ -171,17 +171,24 @@ class Elements:
         return vector / length
 
     def _law(self, what: str, given: Any, of: Mapping[str, Any] | None = None, *, positions: bool = False,
-             reactions: bool = False) -> Law:
-        """User function whose measures exist; with `reactions`, of reactions and accelerations, too."""
-        law, dynamic = Law(what, given, of=of, parameters=self.parameters), []
+             reactions: bool = False, own: Any = None) -> Law:
+        """User function whose measures exist; with `reactions`, of reactions and accelerations, too.
+
+        `own` is the element that gets it, whose measures it may name, or the joint that the element acts on: `OWN` of its
+        measures need no `of`.
+        """
+        elements = self._elements if own is None else {**self._elements, own.name: own}
+        bound = {word: f"{own.name}.{word}" for word in OWN if own is not None and word not in self.parameters
+                 and reading(f"{own.name}.{word}", elements)}
+        law, dynamic = Law(what, given, of={**bound, **of} if bound and of else of or bound, parameters=self.parameters), []
         for measure in law.measures:
-            self._check_measured(what, measure)
-            read = reading(measure, self._elements)
-            if reactions and read is None and is_dynamic(measure, self._elements[measure.partition(".")[0]]):
+            self._check_measured(what, measure, elements)
+            read = reading(measure, elements)
+            if reactions and read is None and is_dynamic(measure, elements[measure.partition(".")[0]]):
                 dynamic.append(measure)
                 continue
             if read is None or len(read.quantities) != 1:
-                known = "" if read else f"; {checks.closest(measure, readable(self._elements[measure.partition('.')[0]]))}"
+                known = "" if read else f"; {checks.closest(measure, readable(elements[measure.partition('.')[0]]))}"
                 raise WrongValue(f"{what} must depend on scalar measures of positions and velocities, and {measure!r} is "
                                  f"none{known}", "wrong-measure")
             if read.is_rate and positions:
@@ -193,12 +200,12 @@ class Elements:
             law.check_smooth(what.split()[0] not in ("speed", "nonholonomic"))
         return law
 
-    def _check_measured(self, what: str, measure: str) -> None:
+    def _check_measured(self, what: str, measure: str, elements: Mapping[str, Any] | None = None) -> None:
         """Check that the element of a measure exists."""
-        owner = measure.partition(".")[0]
-        if owner not in self._elements:
+        owner, known = measure.partition(".")[0], self._elements if elements is None else elements
+        if owner not in known:
             raise WrongValue(f"{what} names {measure!r}, and there is no {owner!r} in {self.name!r}; "
-                             f"{checks.closest(owner, self._elements)}", "wrong-name")
+                             f"{checks.closest(owner, known)}", "wrong-name")
 
     # ---- access ----
 
@@ -233,6 +240,7 @@ def _is_identifier(name: str) -> bool:
     return True
 
 
+OWN = "length", "angle", "displacement", "speed"    # measures that a law of an element has by these names
 ALLOWED = re.compile(r"[A-Za-z0-9_\-]([A-Za-z0-9_\- ]*[A-Za-z0-9_\-])?")
 
 

@@ -76,7 +76,7 @@ class Actuator(Fixed):
     force = scalar("force", "The force with which it pushes its ends apart, in N.")
     power = scalar("power", "The power that it puts in, in W.")
 
-    def __init__(self, name: str, first: Point, second: Point, drives: str, law: Law) -> None:
+    def __init__(self, name: str, first: Point, second: Point, drives: str, law: Any) -> None:
         self.name, self.first, self.second, self.drives, self.law = name, first, second, drives, law
 
     @property
