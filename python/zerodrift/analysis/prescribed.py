@@ -69,7 +69,8 @@ def _of_function(name: str, given: Any, t: np.ndarray) -> Prescribed:
         parts = np.dstack([_parts(name, function, each) for each in t.tolist()])
         if not np.isfinite(parts).all():
             raise WrongValue(f"{name} must be finite with its derivatives at all samples", "not-finite")
-    return Prescribed(*np.ascontiguousarray(parts.swapaxes(1, 2)), 0.0)
+    values, rates, seconds = np.ascontiguousarray(parts.swapaxes(1, 2))
+    return Prescribed(values, rates, seconds, 0.0)
 
 
 def _parts(name: str, function: Callable[[Any], Any], t: Any) -> np.ndarray:

@@ -221,7 +221,7 @@ class ManyRuns:
         if not (found := ready.of._program_of(measure.name)):
             return None
         read = program_writer.reader(*found, core.t, core.p, core.v)
-        return read if place[1:] == (None, None) and measure.size > 1 else lambda: place.pick(read())
+        return read if read is None or (place[1:] == (None, None) and measure.size > 1) else lambda: place.pick(read())
 
     def _reading(self, i: int) -> Reading:
         run = self._core[i]         # which brings it to its present state
