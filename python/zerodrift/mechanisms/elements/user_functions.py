@@ -193,6 +193,16 @@ class Law:
         named = {name: known[name] for name in self._names}
         return self._function.written(equations, **named) if self.formula is None else self.formula.written(equations, named)
 
+    def __getstate__(self) -> dict[str, Any]:
+        """A function that could be recorded is sent as its formula, which other processes have without its module."""
+        is_formula = self.formula is not None and not hasattr(self._function, "written")
+        return {**vars(self), "_function": None} if is_formula else vars(self)
+
+    def __deepcopy__(self, known: Any) -> Law:
+        other = object.__new__(Law)
+        vars(other).update(vars(self))
+        return other
+
 
 class Expression:
     """Expression of SymPy with a function that the core lacks, as a function of its names."""
