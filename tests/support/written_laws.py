@@ -283,6 +283,7 @@ RECORDED = [
     lambda x: 2.0 ** -abs(x) + (1 + x * x) ** x, lambda x: np.sum(np.array([x, 2 * x]) ** 2) + np.mean([x, 1.0]),
     lambda x: np.maximum(x, np.minimum(0.5, 2 * x)), lambda x: np.abs([x, -2.0])[0], lambda x: {"a": x, "b": 2 * x}["b"],
     lambda x: 3.0, lambda x: (x if x > 0 else 0.0) + (x if x > 1 else 0.0), lambda t: np.sin(t),
+    lambda x: np.interp(x, TIMES, VALUES) + np.interp(2 * x - 1, CURVE["speed"], CURVE["torque"]) ** 2,
     lambda x: float(x) + float(np.sin(x)) + int(x > 1) + (x, -x)[x > 0], cached, lambda x: next_to(x)(x),
      np.sin, CURVE["speed"][1] * Motor(2.0).stall and (lambda x: CURVE["torque"][1] * x),
 ]

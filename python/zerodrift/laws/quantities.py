@@ -14,6 +14,7 @@ import numpy as np
 from ..symbolics.graph.graph import Node
 from ..symbolics.graph.plain_functions import NAMED, SPLINE, Plain
 from .formula import FUNCTIONS, IN_NUMPY, SIGNS, leaf
+from .table import Table, table
 
 LARGEST = 1.7976931348623157e308
 
@@ -314,6 +315,16 @@ def _clip(x: Any, low: Any = None, high: Any = None, **more: Any) -> Any:
     return x if high is None else UFUNCS["minimum"](x, high) if _is_scalar(x) else np.minimum(x, high)
 
 
+@functools.cache
+def _curve(x: tuple[float, ...], y: tuple[float, ...]) -> Table:
+    return table(np.array(x), y, kind="linear", beyond="hold")
+
+
+def _interpolated(x: Any, known: Any, values: Any) -> Any:
+    """Value at x between known ones, as np.interp has it."""
+    return _curve(tuple(map(float, known)), tuple(map(float, values)))(x)
+
+
 def _select(conditions: Any, values: Any, default: Any = 0) -> Any:
     return functools.reduce(lambda rest, case: where(case[0], case[1], rest),
                             reversed(list(zip(conditions, values, strict=True))), default)
@@ -346,4 +357,4 @@ UFUNCS: dict[str, Callable[..., Any]] = {
     "isinf": lambda x: False if x.is_leaf else abs(x) > LARGEST,
     **{of: _named(name) for name, of in IN_NUMPY.items()}}
 UFUNCS |= {"fmax": UFUNCS["maximum"], "fmin": UFUNCS["minimum"]}
-CALLS: dict[str, Callable[..., Any]] = {"where": where, "clip": _clip, "select": _select}
+CALLS: dict[str, Callable[..., Any]] = {"where": where, "clip": _clip, "select": _select, "interp": _interpolated}
