@@ -452,4 +452,9 @@ def test_files_that_are_not_tables(tmp_path, text, code, message):
 
 def test_functions_without_derivatives_name_the_table():
     with refused("user-function", r"zd\.table"):
-        zd.simulate(driven(lambda t: np.interp(t, [0, 1], [0, 1])), 0.5, step=0.1)
+        zd.simulate(driven(called(lambda t: np.interp(t, [0, 1], [0, 1]))), 0.5, step=0.1)
+
+
+def test_a_motion_of_straight_lines_is_refused():
+    with refused("user-function", "no jump of its speed.*t = 0.*smooth"):
+        driven(lambda t: np.interp(t, [0, 1], [0, 1]))

@@ -43,7 +43,7 @@ def smoothed(x: np.ndarray, y: np.ndarray, distance: float) -> tuple[np.ndarray,
     def found(log_weight: float) -> tuple[float, np.ndarray, np.ndarray]:
         weight = math.exp(log_weight)
         second = _solved(R + weight * products, np.diff(np.diff(y - line) / h))
-        residual = sum(np.pad(weight * Q[:, i] * second, (i, 2 - i)) for i in range(3))
+        residual = np.sum([np.pad(weight * Q[:, i] * second, (i, 2 - i)) for i in range(3)], axis=0)
         return math.log(_size(residual) / distance), residual, np.pad(second, 1)
 
     ends = [[at := 3 * math.log(np.mean(h)), found(at)[0]]] * 2

@@ -92,7 +92,8 @@ def table(x: ArrayLike | tuple[ArrayLike, ArrayLike], y: ArrayLike | None = None
         x, y = _read(Path(x))
     elif y is None:
         raise WrongType(f"a table must have x and y, or the path of a CSV file, not {type(x).__name__} alone")
-    arrays, names = (x, argument) if isinstance(x, tuple) else ((x,), (argument,))
+    names: Any = argument if isinstance(x, tuple) else (argument,)
+    arrays = x if isinstance(x, tuple) else (x,)
     axes = [_increasing("x", each) for each in arrays]
     if not len(names) == len(axes) <= 2:
         raise WrongValue("a table on a grid must have a tuple of two arrays x, and one of two names, argument", "shape")
@@ -209,7 +210,7 @@ class Spline:
         starts = np.array([[*value[1:], value[0] + self.knots[-1, 4]], [*slope[1:], slope[0]]])
         if self.knots[-1, 1] != REPEATS:
             starts[:, -1] = ends[:, -1]
-        sizes = np.abs([starts, ends, [value, (ends[0] - value) / h]]).max(axis=(0, 2))
+        sizes = np.abs(np.array([starts, ends, [value, (ends[0] - value) / h]])).max(axis=(0, 2))
         found = np.flatnonzero((np.abs(starts - ends) > END_ROUNDING * sizes[:, None])[:derivatives + 1].any(axis=0))
         return float(x[found[0] + 1]) if found.size else None
 
