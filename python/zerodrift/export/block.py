@@ -78,7 +78,7 @@ def block(system: SystemLike, p0: ArrayLike | None = None, v0: ArrayLike | None 
     Raises
     ------
     ValueError
-        If a user function is a callable, or has a function that a block does not know; it is named.
+        If a user function cannot be recorded, or has a function that a block does not know; it is named.
     TypeError
         If the system is not that of a mechanism.
 

@@ -284,7 +284,7 @@ def _checked(code: types.CodeType, free: set[str]) -> list[str]:
             raise Unrecorded(f"{STATE[each.opname]}, {each.argval}" if each.argval else STATE[each.opname])
         if each.opname in ("STORE_DEREF", "DELETE_DEREF") and each.argval in free:
             raise Unrecorded(f"sets the name {each.argval} of another function")
-        if each.opname == "IS_OP" and last and not (last.opname == "LOAD_ATTR" or last.argval is None):
+        if each.opname == "IS_OP" and last and (last.opname, last.argval) != ("LOAD_CONST", None) and last.opname != "LOAD_ATTR":
             raise Unrecorded("compares identities by is")
         if each.opname in ("LOAD_GLOBAL", "LOAD_NAME"):
             found[each.argval] = None

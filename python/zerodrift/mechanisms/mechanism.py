@@ -109,9 +109,9 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
             True: the equations are written out, compiled and cached, with closed-form functions where these pay:
             some three times faster for small mechanisms, after a second or more once. Numbers stay numbers that
             `with_parameters` changes; which of them are zero or one, and which points of a body coincide, is in the code, and
-            where that changes, it is compiled anew by itself. What the user prescribes must be numbers, SymPy expressions
-            or profiles of cams: `zerodrift.table` is a function, too. Without a compiler equations are evaluated as with
-            None, with a `NoCompilerWarning`.
+            where that changes, it is compiled anew by itself. What the user prescribes must be numbers, expressions of SymPy,
+            tables, or functions that can be recorded: ``print(m)`` has those that cannot. Without a compiler equations are
+            evaluated as with None, with a `NoCompilerWarning`.
             In space it is joint coordinates that are written out whole; of absolute ones closed-form functions alone, up to some
             four bodies, and all else keeps the tables. Loops with redundant rows, such as those of full hinges, have no
             closed-form functions in either.
@@ -123,7 +123,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         Raises
         ------
         ValueError
-            If it is to be compiled and a law is a callable; the element is named.
+            If it is to be compiled and a law is a function that cannot be recorded; the element and the reason are named.
 
         Examples
         --------
@@ -261,7 +261,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         Raises
         ------
         ValueError
-            If a callable is in it, which is named: it cannot be saved, and a SymPy expression in its place can.
+            If a function that cannot be recorded is in it, which is named with the reason.
 
         Examples
         --------
