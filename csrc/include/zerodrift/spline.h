@@ -13,7 +13,7 @@ static inline double zd_spline_at(double address, double x, double order)
     const zd_spline *self = (const zd_spline *)(uintptr_t)address;
     if (!self || !(order >= 0 && order <= 2)) return NAN;
     const double *knot = self->knot, *last = knot + 5 * (self->knots - 1);
-    const double periods = last[1] == ZD_BEYOND_REPEATS ? floor((x - *knot) / (*last - *knot)) : 0;
+    const double periods = last[1] == (double)ZD_BEYOND_REPEATS ? floor((x - *knot) / (*last - *knot)) : 0;
     x -= periods * (*last - *knot);
     const double place = (x - *knot) / (*last - *knot) * (self->knots - 1);     /* index, if knots are equally far apart */
     int low = 0, high = self->knots - 1;
@@ -44,7 +44,7 @@ static inline int zd_spline_ends_before(double address, double x, double allowed
     const zd_spline *self = (const zd_spline *)(uintptr_t)address;
     if (!self) return 0;
     const double *first = self->knot, *last = first + 5 * (self->knots - 1);
-    return last[1] == ZD_BEYOND_ERROR && fmax(*first - x, x - *last) > fmax(allowed, ROUNDING * (*last - *first));
+    return last[1] == (double)ZD_BEYOND_ERROR && fmax(*first - x, x - *last) > fmax(allowed, ROUNDING * (*last - *first));
 }
 
 #endif
