@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from scipy.interpolate import CubicSpline, PPoly, make_smoothing_spline
+from scipy.interpolate import CubicSpline, PPoly, make_interp_spline, make_smoothing_spline
 
 import zerodrift as zd
 from native_systems import COMPILER, needs_compiler
@@ -458,3 +458,21 @@ def test_functions_without_derivatives_name_the_table():
 def test_a_motion_of_straight_lines_is_refused():
     with refused("user-function", "no jump of its speed.*t = 0.*smooth"):
         driven(lambda t: np.interp(t, [0, 1], [0, 1]))
+
+
+@pytest.mark.parametrize("closed_form", [None, False])
+def test_a_cam_by_a_table_has_its_slopes_on_every_path(closed_form):
+    """Its products read a spline several times. Positions and speeds of the follower are those of the quintic through the points."""
+    m = zd.Mechanism("cam")
+    turn = m.revolute("turn", m.ground, m.body("shaft", 1.0, 0.1).point((0, 0)))
+    lift = m.prismatic("lift", m.ground, m.body("tappet", 0.2, 0.01, at=(4, 1)), axis=(0, 1), at=(4, 1))
+    angles = np.linspace(0, 2 * np.pi, 13)[:-1]
+    values = 0.1 * np.sin(angles) + 0.05 * np.cos(2 * angles)
+    m.cam("cam", turn, lift, profile=(angles, values))
+    m.motor("drive", turn, speed=2.0)
+    sol = zd.simulate(m, 3.0, step=0.01, closed_form=closed_form)
+    known = make_interp_spline(np.append(angles, 2 * np.pi), np.append(values, values[0]), k=5, bc_type="periodic")
+    angle = sol["turn.angle"]
+    assert_close(sol["lift.displacement"] - sol["lift.displacement"][0], known(angle % (2 * np.pi)) - known(0.0), 1e-10, scale=1.0)
+    assert_close(sol["lift.speed"], 2.0 * known(angle % (2 * np.pi), 1), 1e-9, scale=1.0)
+    assert_close(sol["tappet.acceleration.y"], 4.0 * known(angle % (2 * np.pi), 2), 1e-7, scale=1.0)

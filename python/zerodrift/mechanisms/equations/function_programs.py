@@ -57,7 +57,7 @@ def program_of(row: Any, k: int) -> Written:
     found = _programs.get(key)
     nodes = () if found else equations.results(row)
     first = len(numbers)
-    splines = law.tables
+    splines = list(dict.fromkeys(law.tables))       # in the order in which they are first read, each once
     numbers += [0.0] * (len(splines) or not numbers)      # there is one at least
     if found is None:
         lowering = Lowering(equations.graph)
