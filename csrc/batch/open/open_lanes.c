@@ -171,8 +171,7 @@ static void begin(zd_open_lanes *self, int64_t group, int64_t steps, double t)
     }
 }
 
-/* Makes the full checks of the last step that are due. A run whose user functions end there makes the step again by itself, which reports
- * it. */
+/* Makes the full checks of the last step that are due. A run that has left a table there repeats the step individually, which reports it. */
 static void check(zd_open_lanes *self, int64_t group)
 {
     zd_lanes *lanes = &self->lanes;

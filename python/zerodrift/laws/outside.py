@@ -189,7 +189,7 @@ class Outside:
 
 
 class _Method:
-    """Method that is copied where it is used: others of its class may be what cannot be recorded."""
+    """Method that is copied at its first use, as other methods of its class may not be recordable."""
 
     def __init__(self, method: Any, outside: Outside) -> None:
         self._method, self._outside = method, outside
@@ -202,7 +202,7 @@ class _Method:
 
 
 class _Refused:
-    """Attribute that cannot be copied, which only its use refuses."""
+    """Stand-in of an attribute that cannot be copied: every use of it raises Unrecorded."""
 
     def __init__(self, reason: str) -> None:
         self.__dict__["reason"] = reason
@@ -347,7 +347,7 @@ def _extreme(real: Callable[..., Any], of: Callable[..., Any]) -> Callable[..., 
 
 
 def _as_float(real: Callable[..., Any]) -> Callable[..., Any]:
-    """Function that asks for a type, of which a quantity has that of a float."""
+    """Function that checks a type; a quantity counts as a float."""
     return lambda x, *more: real(1.5 if isinstance(x, Quantity) else x, *more)
 
 

@@ -1,4 +1,4 @@
-"""Quantities: what a function computes with while it is recorded. They follow Python's operators and NumPy's protocols."""
+"""Quantities, which replace floats while a function is recorded. They follow Python's operators and NumPy's protocols."""
 
 from __future__ import annotations
 
@@ -289,14 +289,14 @@ def smallest(*x: Any) -> Any:
 
 
 def remainder(x: Any, y: Any) -> Any:
-    """X % y, which has the sign of y."""
+    """Remainder x % y, which has the sign of y."""
     rest = function("fmod", x, y)
     other_sign = (rest < 0) & (y > 0) | (rest > 0) & (y < 0) if isinstance(y, Quantity) else rest < 0 if y > 0 else rest > 0
     return where(other_sign, rest + y, rest)
 
 
 def quotient(x: Any, y: Any) -> Any:
-    """X // y, a whole number: the nearest to that of x less the remainder."""
+    """Quotient x // y: the whole number nearest to that of x less the remainder."""
     return function("floor", (x - remainder(x, y)) / y + 0.5)
 
 
@@ -306,7 +306,7 @@ def function(name: str, *x: Any) -> Any:
 
 
 def _clip(x: Any, low: Any = None, high: Any = None, **more: Any) -> Any:
-    """X within limits, as np.clip has it."""
+    """Value of x within limits, as np.clip has it."""
     low, high = (more.pop(name, limit) for name, limit in (("min", low), ("max", high)))
     low, high = more.pop("a_min", low), more.pop("a_max", high)
     if more:

@@ -63,7 +63,7 @@ def record(given: Callable[..., Any], names: Sequence[str], parameters: Mapping[
             _compare(given, result, tree, paths.count, names, parameters)
     except Unrecorded as error:
         return Recorded(None, str(error))
-    except Exception as error:      # of objects that are not as others
+    except Exception as error:      # raised by an object's own attribute access or hash
         return Recorded(None, f"raises {type(error).__name__} while it is copied")
     return Recorded(formula, has_values=paths.outside.has_values)
 
@@ -279,7 +279,7 @@ def _numbers(operations: Sequence[Operation]) -> Iterator[Any]:
 
 
 def _borders(operations: Sequence[Operation]) -> dict[str, list[float]]:
-    """Values of names at which a comparison of one alone changes."""
+    """Values at which a comparison that depends on one name changes its truth."""
     found: dict[str, list[float]] = {}
     forms = list[tuple[str, float, float] | None]()     # a name times a number, plus another, or None
     for kind, content in operations:

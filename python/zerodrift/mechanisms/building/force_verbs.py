@@ -26,7 +26,7 @@ class ForceVerbs(Elements):
     ``of=`` binds to names. It is recorded, if it can be: what it computes becomes a formula that the core evaluates, as that of
     an expression. Numbers that it reads from outside count as they are when the mechanism's system is made, by `simulate` or
     `Run`; ``inputs=`` of a run changes numbers within it. A function with state, random numbers, conversions (``int``,
-    ``round``), ``try``, or calls of other libraries is called instead, some fifty times slower, and can be neither compiled,
+    ``round``), ``try``, or calls of other libraries is called instead, up to ninety times slower, and can be neither compiled,
     saved nor exported; ``print(m)`` has the reason.
     """
 
