@@ -204,7 +204,7 @@ static int note_dead_point(tracker *self, int64_t i, zd_tracked *found)
     int status = ZD_DONE;
     if (found->dead < 0) {
         found->dead = i;
-        zd_copy_all(self->quantities, self->reached + self->nq, found->reached);
+        zd_copy_all(self->quantities + 1, self->reached + self->nq, found->reached);
         set_target(self, i, 1);
         status = set_changes(self);
         find_change(self);

@@ -104,7 +104,7 @@ typedef struct zd_prescribed_motion {
 typedef struct zd_tracked {
     double *p, *v, *vdot;       /* (samples, nq), (samples, nv), (samples, nv): not written beyond dead points */
     int64_t dead;               /* first sample beyond a dead point; -1: none */
-    double *reached;            /* (quantities,): the last values before it */
+    double *reached;            /* (quantities + 1,): the last values before it, then the time */
     int64_t contradicting;      /* first sample where quantities or their rates contradict each other or the constraints; -1: none */
     double contradiction;       /* residual there, relative to the changes or rates */
     int is_determined;          /* 1: the quantities determine all positions at p */

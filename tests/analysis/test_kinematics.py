@@ -254,3 +254,48 @@ def test_a_sample_in_a_flat_pose_is_a_dead_point(layout):
     assert np.flatnonzero(np.isnan(kin.p[:, 0])).tolist() == [10]
     others = np.delete(kin["rocker.angular_velocity"], 10)
     assert others == pytest.approx(-1.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_drives_alone_determine_a_motion(layout):
+    """An arm with two driven hinges, whose motion and torques are known by the composition of its turns."""
+    m, t = robot(), np.linspace(0, 1, 101)
+    m.motor("hip drive", "hip", angle=lambda t: 0.2 * t**2)
+    m.actuator("lift", m.ground.point((0.0, 1.0)), m["lower"].end, length=lambda t: 0.95 + 0.05 * np.sin(2 * t))
+    kin = zd.kinematics(m.system(layout), t=t)
+    tip, velocity = kin["lower.end.position"], kin["lower.end.velocity"]
+    away, length, rate = tip - [0.0, 1.0], 0.95 + 0.05 * np.sin(2 * t), 0.1 * np.cos(2 * t)
+    assert np.hypot(*away.T) == pytest.approx(length, abs=1e-12)
+    assert (away * velocity).sum(axis=1) == pytest.approx(length * rate, abs=1e-11)
+    assert (away * kin["lower.end.acceleration"]).sum(axis=1) == pytest.approx(
+        rate**2 - 0.2 * length * np.sin(2 * t) - (velocity**2).sum(axis=1), abs=1e-9)
+    assert kin["upper.angular_acceleration"] == pytest.approx(np.full(101, 0.4), abs=1e-9)
+    inv, held = zd.inverse_dynamics(m.system(layout), kin), robot()
+    same = zd.kinematics(held, {"hip.angle": lambda t: 0.2 * t**2, "knee.angle": kin["knee.angle"]}, t)
+    other = zd.inverse_dynamics(held, same)
+    power = inv["hip drive.torque"] * kin["hip.speed"] + inv["lift.force"] * rate
+    expected = other["hip.angle"] * kin["hip.speed"] + other["knee.angle"] * kin["knee.speed"]
+    assert power == pytest.approx(expected, abs=1e-6)
+    assert "its drives: 101 samples" in repr(kin)
+
+
+def test_what_drives_leave_free_is_named():
+    m = robot()
+    m.motor("hip drive", "hip", angle=lambda t: t)
+    with pytest.raises(zd.SingularSystem, match=r"drives must determine all positions of arm, and leave 1 free: lower\.angle"):
+        zd.kinematics(m, t=[0.0, 1.0])
+    with refused("missing-argument", "t"):
+        zd.kinematics(m)
+
+
+def test_drives_that_come_to_a_dead_point_are_warned_of():
+    """A triangle of sides 1, 1 and a length beyond 2, at t = 0.5."""
+    m = zd.Mechanism("reach")
+    first = m.link("first", (0, 0), (1, 0), mass=1.0)
+    second = m.link("second", (1, 0), (1, 1), mass=1.0)
+    m.revolute("A", m.ground, first.start)
+    m.revolute("B", first.end, second.start)
+    m.motor("turn", "A", angle=0.0)
+    m.actuator("pull", m.ground.point((0, 0)), second.end, length=lambda t: np.sqrt(2) + (4 - 2 * np.sqrt(2)) * t)
+    with pytest.warns(zd.LockedWarning, match=r"dead point, t = 0\.5: 4 samples"):
+        zd.kinematics(m, t=np.linspace(0, 0.9, 10) - 1e-3 * (np.arange(10) == 5))

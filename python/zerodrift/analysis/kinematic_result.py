@@ -47,8 +47,9 @@ class Kinematics:
 
     def __repr__(self) -> str:
         reached = int(np.isfinite(self.p).all(axis=1).sum())
-        return (f"<motion of {self.system.name} by {', '.join(self.prescribed)}: {len(self)} samples, t = {self.t[0]:g} ... "
-                f"{self.t[-1]:g} s{'' if self.success else f'; {len(self) - reached} beyond a dead point'}>")
+        by, beyond = ", ".join(self.prescribed) or "its drives"
+        beyond = "" if self.success else f"; {len(self) - reached} beyond a dead point"
+        return f"<motion of {self.system.name} by {by}: {len(self)} samples, t = {self.t[0]:g} ... {self.t[-1]:g} s{beyond}>"
 
 
 def read(system: BaseSystem, name: Any, t: np.ndarray, states: tuple[np.ndarray, ...],

@@ -24,9 +24,9 @@ from .tangent import null_space
 INACCURATE = 1e-4           # of the largest second rate: differences of an array over time that are worth a warning
 
 
-def kinematics(system: SystemLike, motion: Motions, t: ArrayLike | None = None, *, speed: float | None = None,
+def kinematics(system: SystemLike, motion: Motions | None = None, t: ArrayLike | None = None, *, speed: float | None = None,
                near: ArrayLike | Values | None = None) -> Kinematics:
-    """Motion of a system by prescribed quantities, without forces and masses; inverse kinematics for the end of a robot.
+    """Motion by prescribed quantities, or by the drives alone, without forces and masses; inverse kinematics for a robot's end.
 
     Positions are tracked sample by sample on one assembly branch. Velocities and accelerations follow from (5) and (6) with the
     rows of the prescribed quantities. Drives of the system run at the times of the samples.
@@ -34,9 +34,10 @@ def kinematics(system: SystemLike, motion: Motions, t: ArrayLike | None = None, 
     Parameters
     ----------
     system : system or Mechanism
-    motion : dict of measure to values
+    motion : dict of measure to values, optional
         Quantities of positions that are prescribed: arrays (k,) or (k, size) over the samples, callables of t in NumPy's
-        functions, or SymPy expressions in t. Together with the constraints they must determine all positions.
+        functions, or SymPy expressions in t. Together with the constraints, drives included, they must determine all positions;
+        left out: drives must, of angles, displacements, lengths or constant speeds.
     t : array_like (k,), optional
         Times of the samples in s, increasing. Arrays become quintic splines; `Kinematics.errors` estimates the errors of their
         second derivatives.
@@ -74,21 +75,29 @@ def kinematics(system: SystemLike, motion: Motions, t: ArrayLike | None = None, 
     >>> kin = zd.kinematics(zd.models.four_bar(), {"crank.angle": np.linspace(np.pi / 2, 5.0, 50)}, speed=10.0)
     >>> kin["rocker.angle"].shape, bool(abs(kin["crank.angular_velocity"] - 10.0).max() < 1e-9)
     ((50,), True)
+    >>> m = zd.Mechanism("crank")
+    >>> crank = m.link("crank", (0, 0), (2, 0), mass=1.0)
+    >>> drive = m.motor("drive", m.revolute("pin", m.ground, crank.start), angle=lambda t: 3 * t)
+    >>> kin = zd.kinematics(m, t=np.linspace(0, 1, 101))
+    >>> bool(abs(kin["crank.end.acceleration.x"] + 18 * np.cos(3 * kin.t)).max() < 1e-12)
+    True
     """
     system = system_of(system)
     core_of(system)
-    given, times = values_of(motion, "motion"), None if t is None else checks.increasing("t", t, -np.inf, np.inf)
+    given = {} if motion is None else values_of(motion, "motion")
+    times = None if t is None else checks.increasing("t", t, -np.inf, np.inf)
     if speed is not None:
         speed = _speed(speed, given, times)
     wanted = {name: prescribed(f"motion[{name!r}]", value, times, speed) for name, value in given.items()}
     times = _times(wanted, times, speed)
     p = near_to(system, near, times[0])
     rows = _rows_of(system, times[0], p, wanted)
-    value, *rates = ([getattr(each, order) for each in wanted.values()] for order in ("value", "rate", "second"))
-    rates = [] if t is None and speed is None else [np.hstack(each) for each in rates]
-    tracked = prescribing(system, p, wanted).track(p, np.hstack([*value, times[:, None]]), *rates)
+    value, *rates = (np.hstack([times[:, None], *(getattr(each, order) for each in wanted.values())])
+                     for order in ("value", "rate", "second"))
+    rates = [] if t is None and speed is None else [np.ascontiguousarray(each[:, 1:]) for each in rates]
+    tracked = prescribing(system, p, wanted).track(p, np.roll(value, -1, axis=1), *rates)
     if not tracked.is_determined:
-        _check_freedom(state(system, times[0], p, np.zeros(system.nv)), rows)
+        _check_freedom(state(system, times[0], p, np.zeros(system.nv)), rows, tuple(wanted))
     _report(system, tracked, times, wanted)
     _warn_of_errors(wanted)
     return Kinematics(system, times, *tracked[:3], {name: each.error for name, each in wanted.items()}, tuple(wanted))
@@ -105,8 +114,9 @@ def _speed(speed: Any, given: Mapping[str, Any], times: Any) -> float:
 
 def _times(wanted: Mapping[str, Prescribed], times: np.ndarray | None, speed: float | None) -> np.ndarray:
     """The times of the samples."""
-    if not wanted:
-        raise WrongValue("motion must prescribe at least one quantity", "missing-argument")
+    if not wanted and times is None:
+        raise WrongValue("motion must prescribe at least one quantity, or t be given where drives determine all positions",
+                         "missing-argument")
     counts = {len(each.value) for each in wanted.values()}
     if len(counts) > 1:
         raise WrongValue(f"motion must have as many samples of each quantity, not {sorted(counts)}", "shape")
@@ -133,13 +143,14 @@ def _rows_of(system: BaseSystem, t: float, p: np.ndarray, wanted: Mapping[str, P
     return rows
 
 
-def _check_freedom(at: State, rows: np.ndarray) -> None:
-    """Refuses quantities that do not determine the positions; the coordinate that stays free is named."""
+def _check_freedom(at: State, rows: np.ndarray, wanted: tuple[str, ...]) -> None:
+    """Refuses quantities or drives that do not determine the positions; the coordinate that stays free is named."""
     free = null_space(np.vstack([at.holonomic, rows]), scales(at.system, at.p).v)
     if free.shape[1]:
         named = ", ".join(sorted({dominant(at, at.A @ column) for column in free.T}))
-        raise SingularSystem(f"the prescribed quantities must determine all positions of {at.system.name}, and leave "
-                             f"{free.shape[1]} free: {named}; prescribe more, or begin beside a singular position with near=")
+        what, more = ("prescribed quantities", "") if wanted else ("drives", " by motion=, or drives of angles or lengths")
+        raise SingularSystem(f"the {what} must determine all positions of {at.system.name}, and leave {free.shape[1]} free: "
+                             f"{named}; prescribe more{more}, or begin beside a singular position with near=")
 
 
 def _report(system: BaseSystem, tracked: Tracked, times: np.ndarray, wanted: Mapping[str, Prescribed]) -> None:
@@ -158,9 +169,9 @@ def _report(system: BaseSystem, tracked: Tracked, times: np.ndarray, wanted: Map
         raise InconsistentStart(f"the prescribed motion must agree with the constraints of {system.name}: at t = {times[i]:g} "
                                 f"rates differ by {tracked.contradiction:.3g} of their size")
     if tracked.reached is not None:
-        ends = np.cumsum([each.value.shape[1] for each in wanted.values()])
-        limit = ", ".join(f"{name} = {np.array2string(value, precision=9)[1:-1]}"
-                          for name, value in zip(wanted, np.split(tracked.reached, ends[:-1]), strict=True))
+        ends = np.cumsum([each.value.shape[1] for each in wanted.values()], dtype=int)
+        limit = ", ".join(f"{name} = {np.array2string(value, precision=9)[1:-1]}" for name, value in
+                          zip([*wanted] or ["t"], np.split(tracked.reached, ends), strict=not wanted))
         beyond = np.isnan(tracked.p[:, 0]).sum()
         warnings.warn(f"the motion of {system.name} comes to a dead point, {limit}: {beyond} samples beyond it are NaN",
                       LockedWarning, stacklevel=3)

@@ -77,5 +77,5 @@ def near_to(system: BaseSystem, near: Any, t: float) -> np.ndarray:
     tracked = prescribing(system, p, values).track(p, np.hstack([*wanted, t])[None])
     if tracked.reached is not None:
         raise CorrectionFailed(f"near must be values that {system.name} can move to from its start, and the way to "
-                               f"{', '.join(values)} ends at {tracked.reached}")
+                               f"{', '.join(values)} ends at {tracked.reached[:-1]}")
     return tracked.p[0]

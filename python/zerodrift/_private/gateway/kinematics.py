@@ -15,9 +15,9 @@ from .systems import CoreSystem
 class Tracked(NamedTuple):
     """Positions (k, nq), velocities and accelerations (k, nv), NaN where they are unknown.
 
-    `reached`: the last values (n,) before a dead point. `contradicting`: the first sample, or -1, at which quantities or their
-    rates contradict each other or the constraints, and by how much, relative to their changes or rates. `is_determined`: they
-    determine all positions where the tracking begins.
+    `reached`: the last values (n,) before a dead point, and the time. `contradicting`: the first sample, or -1,
+    at which quantities or their rates contradict each other or the constraints, and by how much, relative to their changes or
+    rates. `is_determined`: they determine all positions where the tracking begins.
     """
 
     p: np.ndarray
@@ -74,7 +74,7 @@ class Prescribing:
         if rates:
             motion.rate, motion.second = (doubles(each, each.size) for each in rates)
         arrays: dict[str, Any] = {name: np.full((len(value), size), np.nan) for name, size in sizes.items()}
-        arrays["reached"] = np.zeros(motion.quantities)
+        arrays["reached"] = np.zeros(motion.quantities + 1)
         found = ffi.new("zd_tracked *", {name: doubles(each, each.size, writable=True) for name, each in arrays.items()})
         self._checked(lib.zd_kinematics(motion, doubles(p, p.size), found))
         if found.dead < 0:
