@@ -47,7 +47,7 @@ class Kinematics:
 
     def __repr__(self) -> str:
         reached = int(np.isfinite(self.p).all(axis=1).sum())
-        by, beyond = ", ".join(self.prescribed) or "its drives"
+        by = ", ".join(self.prescribed) or "its drives"
         beyond = "" if self.success else f"; {len(self) - reached} beyond a dead point"
         return f"<motion of {self.system.name} by {by}: {len(self)} samples, t = {self.t[0]:g} ... {self.t[-1]:g} s{beyond}>"
 
