@@ -67,6 +67,8 @@ def vehicles():
     m.torque("moment", wheel, value=0.7, against=sleigh)
     m.bushing("mount", wheel, sleigh, at=(1, 0.7), stiffness=(30, 20), damping=(1, 0.5), torsion=2.0, torsion_damping=0.1)
     m.spring("spring", m.ground.point((1, 2)), sleigh.point((0.1, 0.2)), stiffness=20, length=0.7, damping=0.8)
+    m.spring("strut", m.ground.point((2, 3)), sleigh.point((0.1, 0)), force=8 * (x - 1)**3 + y, damping=0.3,
+             of={"x": "strut.length", "y": "strut.speed"})
     ball = m.particle("ball", 0.5, at=(-1, 1))
     m.constraint("bowl", y - x**2 / 2 - sp.sin(t) / 9, of={"x": ball.position.x, "y": ball.position.y})
     disc = m.body("disc", 1.0, 0.2, at=(-2, 0))

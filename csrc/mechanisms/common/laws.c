@@ -97,8 +97,9 @@ int zd_force_evaluate(const zd_planned_elements *elements, const zd_readings *at
         status = ask(elements, at, force->law, force->first, force->terms, t, 1);
         *value = at->out[0];
     } else if (force->kind == ZD_FORCE_SPRING) {
-        *value = -force->stiffness * zd_value_of(at, force->quantity) - force->damping * speed;
+        *value = -force->stiffness * zd_value_of(at, force->quantity);
     }
+    *value -= force->damping * speed;
     return status;
 }
 

@@ -230,7 +230,8 @@ def _target(name: str, tables: Any) -> tuple[str, int]:
     """Member that an input sets, a force or a speed, and its index in the tables."""
     owner, _, quantity = name.rpartition(".")
     if quantity in ("force", "torque", "value"):
-        values = (each.first for each in tables.observed if each.kind == "force value" and each.name.rpartition(".")[0] == owner)
+        values = (each.first for each in tables.observed if each.kind == "force value" and each.scale > 0
+                  and each.name.rpartition(".")[0] == owner)
         index = next(values, None)
         if index is not None and tables.forces[index].kind == "constant":
             return "force", index

@@ -26,8 +26,8 @@ def check_directions(tables: Tables, poses: np.ndarray, size: float) -> None:
     for element in (*tables.drawing.of(Actuator), *tables.drawing.of(TableForce)):
         if isinstance(element, Actuator) or is_between_points(element.row):
             apart, length, damping = _apart(tables, element, poses)
-            if apart <= COINCIDENT * size and (isinstance(element, Actuator) or length > COINCIDENT * size or damping):
-                or_slack, otherwise = ("", "") if isinstance(element, Actuator) else (
+            if apart <= COINCIDENT * size and (element.law or length > COINCIDENT * size or damping):
+                or_slack, otherwise = ("", "") if element.law else (
                     ", unless its length and its damping are 0", "; a bushing has stiffness and damping in each direction there")
                 raise WrongValue(f"the points of {element.kind} {element.name!r} must be apart at the start{or_slack}: its force "
                                  f"has no direction where they coincide{otherwise}", "geometry")
@@ -37,11 +37,11 @@ def check_directions(tables: Tables, poses: np.ndarray, size: float) -> None:
 
 
 def _apart(tables: Tables, element: Any, poses: np.ndarray) -> tuple[float, float, float]:
-    """Distance of the points of an element in m, its free length and its damping; those of actuators are zero."""
+    """Distance of the points of an element in m, its free length and its damping; zero where it has a law."""
     quantity = tables.length_quantity(element)
     first, second = (_place(poses, *each) for each in ((quantity.first, quantity.point1), (quantity.second, quantity.point2)))
     apart = float(np.linalg.norm(second - first))
-    if isinstance(element, Actuator):
+    if element.law:
         return apart, 0.0, 0.0
     stiffness, damping = (tables.numbers(element, path, element.values[path]) for path in paths(element.row)[0])
     return apart, element.length_with(tables.numbers) if stiffness else 0.0, damping

@@ -102,14 +102,14 @@ def _measure(m: Any, name: str) -> str:
     return f"{name}.z" if quantity == "angular_velocity" else name
 
 
-def _law(m: Any, law: Law) -> dict[str, Any]:
-    """Arguments of a user function: its value and `of`."""
-    if law.constant is not None:
-        return {"value": law.constant, "of": None}
+def _law(m: Any, law: Law | None, word: str = "value") -> dict[str, Any]:
+    """Arguments of a user function: its value, as `word`, and `of`."""
+    if law is None or law.constant is not None:
+        return {} if law is None else {word: law.constant, "of": None}
     bound = {name: _measure(m, measure) for name, measure in law._bound.items()}
     given = {name: measure for name, measure in bound.items() if "." not in name}
     measured = {name: bound[name] for name in bound.keys() - given.keys()}
-    return {"value": law._function or (law.formula and law.formula.renamed(measured)), "of": given}
+    return {word: law._function or (law.formula and law.formula.renamed(measured)), "of": given}
 
 
 def _start(drawing: Drawing, given: Mapping[str, Any]) -> dict[str, Any]:
@@ -205,19 +205,17 @@ def _cam(m: Any, coupling: Any) -> None:
 
 
 def _motor(m: Any, motor: Any) -> None:
-    law = _law(m, motor.law)
-    m.motor(motor.name, motor.joint.name, of=law["of"], **{motor.drives: law["value"]})
+    m.motor(motor.name, motor.joint.name, **_law(m, motor.law, motor.drives))
 
 
 def _actuator(m: Any, actuator: Any) -> None:
-    law = _law(m, actuator.law)
-    m.actuator(actuator.name, *_sides(m, actuator), of=law["of"], **{actuator.drives: law["value"]})
+    m.actuator(actuator.name, *_sides(m, actuator), **_law(m, actuator.law, actuator.drives))
 
 
 def _table_force(m: Any, force: TableForce) -> None:
     ends = _sides(m, force) if force.joint is None else (force.joint.name,)
     axis = {} if force.axis is None else {"axis": _raised(force.first.body.pose.direction(force.axis))}
-    getattr(m, force.kind)(force.name, *ends, **axis, **(force.given() if force.law is None else _law(m, force.law)))
+    getattr(m, force.kind)(force.name, *ends, **axis, **force.given(), **_law(m, force.law, force.drives))
 
 
 def _bushing(m: Any, bushing: Any) -> None:

@@ -13,7 +13,8 @@ from ..._private.gateway.mechanisms.element_tables import ElementKind
 from ...errors import WrongType, WrongValue
 from ..elements.bodies import Point
 from ..elements.frames import perpendicular
-from ..elements.table_forces import ROTATIONS, TableForce, has, is_between_points, lengths, parameters
+from ..elements.immutable import amend
+from ..elements.table_forces import ROTATIONS, TableForce, has, is_between_points, law_word, lengths, parameters
 from .registry import Elements
 from .table_joint_documentation import POINTS, SIDES, wrapped
 
@@ -23,13 +24,22 @@ WORDS = {
     "axis": ("array_like {axis_size}", "{axis}direction in the drawing; it turns with the first body.{own_axes}"),
     "normal": ("array_like (3,), optional", "In space its second direction, which is made perpendicular; the third follows."),
     "length": ("float, optional", "Unstressed length in m, at least 0; left out: as drawn."),
-    "angle": ("float", "Angle of the joint at which the spring is slack, in rad."),
+    "angle": ("float, optional", "Angle of the joint at which the spring is slack, in rad; left out: 0, as drawn."),
+    "force": ("float, callable or SymPy expression, in the place of `stiffness`",
+              "Tension in N, negative where it pushes; of the same as the torque of `motor`. The spring's own ``length`` and "
+              "``speed`` need no `of`: ``force=lambda length, speed: 500 * (length - 0.3)`` restores a length of 0.3 m. Its "
+              "work is an input of energy; only a stiffness has a potential."),
+    "torque": ("float, callable or SymPy expression, in the place of `stiffness`",
+               "Torque on the joint's second body in N m; of the same as that of `motor`. The joint's own ``angle`` and "
+               "``speed`` need no `of`: ``torque=lambda angle, speed: -5 * angle`` restores the angle 0. Its work is an input of "
+               "energy; only a stiffness has a potential."),
     "value": ("float, callable or SymPy expression",
               "In {unit}; of the same as the torque of `motor`."),
-    "of": ("dict of str to measure", "Measures by the names of the callable's arguments.")}
+    "of": ("dict of str to measure", "Measures that the callable receives, by argument name.")}
 UNITS = {"stiffness": ("N/m", "N m/rad"), "damping": ("N s/m", "N m s/rad"), "torsion": ("", "N m/rad"),
          "torsion_damping": ("", "N m s/rad"), "value": ("N", "N m")}      # along marker quantities in m and in rad
-KINDS = {"name": "str", "first": "Side", "second": "Side", "joint": "Joint | str", "value": "LawLike", "of": "Bindings | None"}
+KINDS = {"name": "str", "first": "Side", "second": "Side", "joint": "Joint | str", "value": "LawLike", "force": "LawLike | None",
+         "torque": "LawLike | None", "of": "Bindings | None"}
 NEEDED = inspect.Parameter.empty
 FLAT = 1e-6             # sine of the angle below which directions are parallel
 
@@ -69,9 +79,9 @@ def words(entry: ElementKind) -> dict[str, Any]:
     at = {} if entry.at_joint or is_between_points(entry) else {"at": None}
     if not entry.is_spring:
         return {**at, **axes, "value": NEEDED, "of": None}
-    several = len(entry.quantities) > 1
-    return {**at, **{word: None if word == "length" else NEEDED if word == "stiffness" and not several else 0.0
-                     for word in parameters(entry)}, **axes}
+    law = dict.fromkeys((law_word(entry), "of")) if entry.measure else {}
+    return {**at, **{word: None if word in ("length", "angle") or (word == "stiffness" and law) else 0.0
+                     for word in parameters(entry)}, **law, **axes}
 
 
 def _either(force: type[TableForce]) -> ElementKind:
@@ -95,12 +105,27 @@ def _add(m: Elements, force: type[TableForce], name: Any, given: dict[str, Any])
     ends = _ends(m, entry, name, given)
     if has(entry, *ROTATIONS) and not entry.at_joint:
         m._turning(name, what, *(end.body for end in ends))
-    place = _directions(m, entry, name, given, ends)
-    if entry.is_spring:
-        values = {path: value for word in parameters(entry) for path, value in _values(word, name, entry, given[word]).items()}
-        return m._add(force(name, *ends, values=values, **place))
-    law = m._law(f"value of {what} {name!r}", given["value"], given["of"], reactions=True)
-    return m._add(force(name, *ends, values={}, law=law, **place))
+    place, law = _directions(m, entry, name, given, ends), law_word(entry)
+    if entry.is_spring and law:
+        _check_one(f"{what} {name!r}", law, given)
+    values = {path: value for word in parameters(entry) for path, value in _values(word, name, entry, given[word]).items()}
+    element = force(name, *ends, values=values, **place)
+    if given.get(law) is not None:
+        amend(element, law=m._law(f"{law} of {what} {name!r}", given[law], given["of"], reactions=True,
+                                  own=(element.joint or element) if entry.is_spring else None))
+    return m._add(element)
+
+
+def _check_one(what: str, law: str, given: dict[str, Any]) -> None:
+    """Check that a spring has either a stiffness or a law, and no argument that belongs to the other."""
+    has_law = given[law] is not None
+    if has_law == (given["stiffness"] is not None):
+        raise WrongType(f"{what} needs one of stiffness and {law}, not {'both' if has_law else 'none'}", "conflicting-arguments")
+    for word in ("length", "angle") if has_law else ("of",):
+        if given.get(word) is not None:
+            raise WrongType(f"{word} of {what} goes with {'stiffness' if has_law else law}", "conflicting-arguments")
+    if not has_law and "angle" in given:
+        given["angle"] = given["angle"] or 0.0
 
 
 def _entry(m: Elements, force: type[TableForce], name: Any, given: dict[str, Any]) -> ElementKind:
@@ -157,7 +182,7 @@ def _frames(name: str, first: Point, second: Point, axis: Any, normal: Any) -> t
 
 def _values(word: str, name: str, entry: ElementKind, given: Any) -> dict[str, float]:
     """Values of a parameter by path, from one number for all of its marker quantities or one for each."""
-    if word == "length" and given is None:
+    if given is None:
         return {}
     paths = parameters(entry)[word]
     each = np.broadcast_to(given, len(paths)) if np.ndim(given) == 0 and len(paths) > 1 else given

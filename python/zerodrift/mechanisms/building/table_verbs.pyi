@@ -1,6 +1,6 @@
 """Methods of `Mechanism` made from the core's tables; written by tests/support/stubs.py."""
 
-from ..._private.types import ArrayLike
+from ..._private.types import ArrayLike, Bindings, LawLike
 from ..elements import forces
 from ..elements.bodies import Body, Point
 from ..elements.joints import Joint
@@ -93,6 +93,7 @@ class Spring(forces.Spring):
     damping: float
     force: Measure
     length: Measure
+    speed: Measure
 
 class TorsionSpring(forces.TorsionSpring):
     stiffness: float
@@ -535,8 +536,8 @@ class TableVerbs(Elements):
         VectorMeasure3('joint.force')
         """
 
-    def spring(self, name: str, first: Side, second: Side, *, stiffness: ArrayLike, length: ArrayLike | None = None,
-               damping: ArrayLike = 0.0) -> Spring:
+    def spring(self, name: str, first: Side, second: Side, *, stiffness: ArrayLike | None = None, length: ArrayLike | None = None,
+               damping: ArrayLike = 0.0, force: LawLike | None = None, of: Bindings | None = None) -> Spring:
         """Spring with a damper between two points.
 
         Parameters
@@ -549,6 +550,12 @@ class TableVerbs(Elements):
             Unstressed length in m, at least 0; left out: as drawn.
         damping : float
             In N s/m, at least 0.
+        force : float, callable or SymPy expression, in the place of `stiffness`
+            Tension in N, negative where it pushes; of the same as the torque of `motor`. The spring's own ``length`` and
+            ``speed`` need no `of`: ``force=lambda length, speed: 500 * (length - 0.3)`` restores a length of 0.3 m. Its work is
+            an input of energy; only a stiffness has a potential.
+        of : dict of str to measure
+            Measures that the callable receives, by argument name.
 
         Returns
         -------
@@ -567,8 +574,8 @@ class TableVerbs(Elements):
         <spring element: ground - body>
         """
 
-    def torsion_spring(self, name: str, joint: Joint | str, *, stiffness: ArrayLike, angle: ArrayLike = 0.0,
-                       damping: ArrayLike = 0.0) -> TorsionSpring:
+    def torsion_spring(self, name: str, joint: Joint | str, *, stiffness: ArrayLike | None = None, angle: ArrayLike | None = None,
+                       damping: ArrayLike = 0.0, torque: LawLike | None = None, of: Bindings | None = None) -> TorsionSpring:
         """Spring with a damper about the axis of a joint.
 
         Parameters
@@ -578,10 +585,16 @@ class TableVerbs(Elements):
             With one angle, which counts turns.
         stiffness : float
             In N m/rad, at least 0.
-        angle : float
-            Angle of the joint at which the spring is slack, in rad.
+        angle : float, optional
+            Angle of the joint at which the spring is slack, in rad; left out: 0, as drawn.
         damping : float
             In N m s/rad, at least 0.
+        torque : float, callable or SymPy expression, in the place of `stiffness`
+            Torque on the joint's second body in N m; of the same as that of `motor`. The joint's own ``angle`` and ``speed``
+            need no `of`: ``torque=lambda angle, speed: -5 * angle`` restores the angle 0. Its work is an input of energy; only
+            a stiffness has a potential.
+        of : dict of str to measure
+            Measures that the callable receives, by argument name.
 
         Returns
         -------

@@ -217,7 +217,7 @@ def inputs_of(drawing: Any) -> dict[str, tuple[Any, str, str]]:
             found[path] = element, element.drives, path
     for element in drawing.of(TableForce):
         if element.law is not None:
-            found[f"{element.name}.{element.row.measure}"] = element, element.row.measure, f"{element.name}.value"
+            found[f"{element.name}.{element.row.measure}"] = element, element.row.measure, f"{element.name}.{element.drives}"
     return found
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any, ClassVar
 
 import numpy as np
@@ -62,6 +64,15 @@ def parameters(entry: ElementKind) -> dict[str, tuple[str, ...]]:
     return {"stiffness": found.pop("stiffness"), **({slack: (slack,)} if slack else {}), **found}
 
 
+def law_word(entry: ElementKind) -> str:
+    """Argument that takes the law of an element: "force" or "torque" of a spring, "" of a bushing, "value" of others."""
+    return entry.measure or "" if entry.is_spring else "value"
+
+
+LENGTH = {"length": scalar("length", "The distance of its ends, in m."),
+          "speed": scalar("speed", "The rate of `length`, in m/s.")}
+
+
 def _measures(entry: ElementKind) -> dict[str, Any]:
     """Measures of an element."""
     if entry.measure is None:
@@ -73,7 +84,7 @@ def _measures(entry: ElementKind) -> dict[str, Any]:
         where = ("what acts on the joint's second body" if entry.at_joint else "positive where it pulls, its damping included"
                  if entry.sign < 0 else "positive where it drives the marker quantity up")
         found = {entry.measure: scalar(entry.measure, f"Its {entry.measure} in {UNITS[entry.measure]}, {where}.")}
-    return {**found, "length": scalar("length", "The distance of its ends, in m.")} if has(entry, "distance") else found
+    return {**found, **LENGTH} if has(entry, "distance") else found
 
 
 MOMENT = property(lambda self: (VectorMeasure3 if self.dimension == 3 else Measure)(f"{self.measured_name}.torque"),
@@ -97,7 +108,7 @@ class TableForce(Fixed):
     values : dict of str to float
         Parameters of a spring by path; ``length`` only if it is given.
     law : Law or None
-        The force or torque of an element that is not a spring.
+        The force or torque of an element that is not a spring, or of a spring in the place of its stiffness.
     axis : ndarray (2,) or None
         In the plane, in the first body's frame.
     frames : tuple of ndarray (3, 3), or None
@@ -106,10 +117,12 @@ class TableForce(Fixed):
 
     kind = ""                                       # name in the core's tables
     entries: ClassVar[dict[int, ElementKind]]       # entries of the tables by dimension
+    coordinate: ClassVar[str | None] = None         # "length" of an element between two points
     first: Any = None
     second: Any = None
     joint: Joint | None = None
     law: Law | None = None
+    values: Mapping[str, float] = MappingProxyType({})
     axis: np.ndarray | None = None
     frames: Any = None
 
@@ -118,10 +131,11 @@ class TableForce(Fixed):
         tables = {2: ELEMENTS, 3: SPACE_ELEMENTS}
         cls.entries = {dimension: table[cls.kind] for dimension, table in tables.items() if cls.kind in table}
         for entry in cls.entries.values():
+            cls.coordinate = "length" if has(entry, "distance") else None
             for name, measure in _measures(entry).items():
                 setattr(cls, name, measure)
 
-    def __init__(self, name: str, *sides: Any, values: dict[str, float], law: Law | None = None, axis: np.ndarray | None = None,
+    def __init__(self, name: str, *sides: Any, values: dict[str, float], axis: np.ndarray | None = None,
                  frames: Any = None) -> None:
         self.name = name
         if len(sides) == 1:
@@ -129,7 +143,7 @@ class TableForce(Fixed):
         else:
             self.first, self.second = sides
         self._keep(values)
-        self.law, self.axis, self.frames = law, axis, frames
+        self.axis, self.frames = axis, frames
 
     def _keep(self, values: dict[str, float]) -> None:
         self.values = values
@@ -154,6 +168,16 @@ class TableForce(Fixed):
         """Marker quantities it acts along."""
         return self.row.quantities
 
+    @property
+    def drives(self) -> str:
+        """Argument that takes its law."""
+        return law_word(self.row)
+
+    @property
+    def own(self) -> str:
+        """Measure along which the law of a spring acts; empty for others."""
+        return "" if not self.row.is_spring else f"{self.joint.name}.angle" if self.joint else f"{self.name}.length"
+
     def length_with(self, numbers: Numbers) -> float:
         """Unstressed length; if not given, the distance in the drawing."""
         apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
@@ -162,10 +186,9 @@ class TableForce(Fixed):
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
-        if self.law is not None:
-            return {} if self.law.constant is None else {"value": self.law.constant}
-        return {path: self.length_with(now) if path == "length" else self.values[path]
-                for each in parameters(self.row).values() for path in each}
+        law = {} if self.law is None or self.law.constant is None else {self.drives: self.law.constant}
+        return law | {path: self.length_with(now) if path == "length" else self.values[path]
+                      for each in parameters(self.row).values() for path in each if self.law is None or path in self.values}
 
     def given(self) -> dict[str, Any]:
         """Parameters of a spring as its method takes them: a number, or one for each marker quantity."""
@@ -176,7 +199,7 @@ class TableForce(Fixed):
         """Offset of a marker quantity: its value as drawn, or the length or angle at which the element is slack."""
         if self.joint is not None:
             drawn = self.joint.angle_as_drawn() if quantity.zero == "angle" else 0.0
-            return drawn + numbers(self, "angle", self.values["angle"])
+            return drawn + numbers(self, "angle", self.values.get("angle", 0.0))
         if quantity.zero == "length":
             return self.length_with(numbers)
         if quantity.zero == "angle":

@@ -19,6 +19,8 @@ class Call:
     Reactions that it reads follow the marker quantities.
     """
 
+    sign = 1        # factor of a generalized force
+
     def __init__(self, law: Law | InputLaw, picks: Sequence[tuple[int, bool]], parameters: Mapping[str, float]) -> None:
         self.law, self.picks, self.parameters = law, tuple(picks), parameters
 
@@ -36,10 +38,18 @@ class Call:
 
 
 class ForceLaw(Call):
-    """Generalized force: a force or torque."""
+    """Generalized force: a force or torque, times `sign`."""
+
+    def __init__(self, law: Law | InputLaw, picks: Sequence[tuple[int, bool]], parameters: Mapping[str, float],
+                 sign: int) -> None:
+        super().__init__(law, picks, parameters)
+        self.sign = sign
 
     def __call__(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
-        return (self._numbers(t, x, xdot),)
+        return (self.sign * self._numbers(t, x, xdot),)
+
+    def written(self, equations: Any, values: Sequence[Any], rates: Sequence[Any]) -> Any:
+        return equations.graph.sum([(super().written(equations, values, rates), self.sign)])
 
     def said(self, leaves: Any, node: Any) -> Sequence[Any]:
         return (node,)

@@ -52,7 +52,7 @@ def program_of(row: Any, k: int) -> Written:
     """
     law = row.law
     own = law.numbers if law.input is not None else {name: row.parameters[name] for name in law.names if name in row.parameters}
-    key = None if law.formula is None else (type(row), law.formula, law.names, row.picks, tuple(own), k)
+    key = None if law.formula is None else (type(row), row.sign, law.formula, law.names, row.picks, tuple(own), k)
     equations, numbers = _Equations(list(own), k), [float(each) for each in own.values()]
     found = _programs.get(key)
     nodes = () if found else equations.results(row)

@@ -10,10 +10,8 @@ import numpy as np
 
 from ...errors import WrongValue
 from ..elements.bodies import Body, Link, Point
-from ..elements.forces import Actuator
 from ..elements.joints import Joint, is_hinge
 from ..elements.space_joints import SpaceJoint, is_at_point, speeds
-from ..elements.table_forces import TableForce, has
 from . import transmission
 
 RATES = {"velocity": "position", "angular_velocity": "angle"}      # and "speed" of a joint's coordinate
@@ -38,7 +36,7 @@ def reading(name: str, elements: Mapping[str, Any]) -> Reading | None:
     quantity, *component = rest
     if getattr(element, "dimension", 2) == 3:
         return _in_space(owner, element, quantity, component)
-    base = element.coordinate if quantity == "speed" and isinstance(element, Joint | Actuator) else RATES.get(quantity, quantity)
+    base = getattr(element, "coordinate", None) if quantity == "speed" else RATES.get(quantity, quantity)
     if name == f"{owner}.transmission_angle" and transmission.has_one(element, transmission.joints_by_body(elements)):
         return Reading((name,), False)
     if base not in quantities(element):
@@ -79,7 +77,7 @@ def rates_of(element: Any) -> dict[str, str]:
     if isinstance(element, Body | Point):
         spin = {"angular_velocity": "spin"} if isinstance(element, Body) and element.turns else {}
         return {"velocity": "position", **spin}
-    return {"speed": "length"} if isinstance(element, Actuator) else {}
+    return {"speed": "length"} if "length" in quantities(element) else {}
 
 
 def _points(element: Any) -> tuple[str, ...]:
@@ -130,15 +128,14 @@ def readable(element: Any) -> list[str]:
     rates = {"position": "velocity", "angle": "angular_velocity"}
     found = []
     for quantity in quantities(element):
-        is_coordinate = isinstance(element, Joint | Actuator) and quantity != "position"
-        rate = "speed" if is_coordinate else rates.get(quantity)
+        rate = "speed" if quantity == getattr(element, "coordinate", None) else rates.get(quantity)
         found += [f"{named}.{quantity}", *([f"{named}.{rate}"] if rate else [])]
     found += [f"{named}.{point}.{quantity}" for point in _points(element) for quantity in ("position", "velocity")]
     return found
 
 
 def quantities(element: Any) -> tuple[str, ...]:
-    """Measurable positions of an element; all except lengths of springs have rates, too."""
+    """Measurable positions of an element, which have rates, too."""
     if isinstance(element, SpaceJoint):
         return (*element.coordinates, *(("position",) if is_at_point(element.row) else ()))
     if isinstance(element, Body):
@@ -148,8 +145,7 @@ def quantities(element: Any) -> tuple[str, ...]:
     if isinstance(element, Joint):
         place = ("position",) if is_hinge(element.row) else ()
         return (element.coordinate, *place) if element.coordinate and has_coordinate(element) else place
-    is_length = isinstance(element, Actuator) or (isinstance(element, TableForce) and has(element.row, "distance"))
-    return ("length",) if is_length else ()
+    return ("length",) if getattr(element, "coordinate", None) == "length" else ()
 
 
 def has_coordinate(joint: Joint) -> bool:

@@ -17,7 +17,7 @@ from ..elements.bodies import Body, Link, Point
 from ..elements.forces import Actuator
 from ..elements.joints import holds_angle, is_hinge
 from ..elements.space_joints import SpaceJoint, acceleration_of, has_torque, is_at_point, speeds
-from ..elements.table_forces import TableForce, has
+from ..elements.table_forces import TableForce
 from . import transmission
 from .measure_names import has_coordinate
 from .space_tables import SpaceTables
@@ -122,11 +122,9 @@ def _positions_in_space(tables: SpaceTables) -> Iterator[Position]:
 
 
 def _lengths(tables: Tables) -> Iterator[Position]:
-    for actuator in tables.drawing.of(Actuator):
-        yield Position(f"{actuator.name}.length", "m", f"{actuator.name}.speed", None,
-                       partial(_one, tables.length_quantity, actuator))
-    for spring in (each for each in tables.drawing.of(TableForce) if has(each.row, "distance")):
-        yield Position(f"{spring.name}.length", "m", None, None, partial(_one, tables.length_quantity, spring))
+    for each in (*tables.drawing.of(Actuator), *tables.drawing.of(TableForce)):
+        if each.coordinate:
+            yield Position(f"{each.name}.length", "m", f"{each.name}.speed", None, partial(_one, tables.length_quantity, each))
 
 
 def _one(of: Callable[..., Any], *arguments: Any) -> tuple[Any]:

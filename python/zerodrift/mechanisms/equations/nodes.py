@@ -238,7 +238,7 @@ class Equations(Relations):
         weights = [(graph.times(link.mass, graph.dot(self.plan.gravity, frame.at)), -1)
                    for link, frame in zip(self.plan.links, self.frames[1:], strict=True)]
         springs = [(graph.product([(force.stiffness, 1), (self.readings[force.quantity].value, 2)]), HALF)
-                   for force in self.plan.forces if force.kind == "spring"]
+                   for force in self.plan.forces]
         return graph.sum([*weights, *springs])
 
     def _force(self) -> list[Node]:
@@ -246,10 +246,7 @@ class Equations(Relations):
         graph, forces = self.graph, []
         for force in self.plan.forces:
             rate = self.readings[force.quantity].rate
-            if force.kind == "spring":
-                forces.append((graph.minus(graph.times(force.damping, rate)), rate))
-            else:
-                law = force.kind == "law"
-                forces.append((self._law(force.law, force.inputs) if law else force.value, rate))
+            said = self._law(force.law, force.inputs) if force.kind == "law" else force.value
+            forces.append((self.difference(said, graph.times(force.damping, rate)), rate))
         along = [graph.derivative_along({v: graph.one}) for v in self.v]
         return [graph.plus(*(graph.times(value, of(rate)) for value, rate in forces if value is not graph.zero)) for of in along]

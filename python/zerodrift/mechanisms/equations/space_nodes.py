@@ -240,15 +240,11 @@ class Equations(Relations):
                 self._push(f, graph.times(link.mass, g), speed)
         for force in self.plan.forces:
             value, rate = self.readings[force.quantity]
-            if force.kind == "spring":
-                damping = graph.minus(graph.times(force.damping, rate))
-                self._push(f, self.difference(damping, graph.times(force.stiffness, value)), rate)
-                V.append(graph.sum([(graph.product([(force.stiffness, 1), (value, 2)]), HALF)]))
-                power.append(graph.times(damping, rate))
-            else:
-                said = self._law(force.law, force.inputs) if force.kind == "law" else force.value
-                self._push(f, said, rate)
-                power.append(graph.times(said, rate))
+            said = self._law(force.law, force.inputs) if force.kind == "law" else force.value
+            said = self.difference(said, graph.times(force.damping, rate))
+            self._push(f, self.difference(said, graph.times(force.stiffness, value)), rate)
+            V.append(graph.sum([(graph.product([(force.stiffness, 1), (value, 2)]), HALF)]))
+            power.append(graph.times(said, rate))
         return {"f": [graph.plus(*terms) for terms in f], "V": [graph.plus(*V)], "power": [graph.plus(*power)]}
 
     def _push(self, f: list[list[Node]], force: Node, rate: Node) -> None:

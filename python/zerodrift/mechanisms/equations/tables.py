@@ -56,7 +56,6 @@ class Tables:
         self.relations: list[entries.Relation] = []
         self.relation_names: list[str] = []
         self.forces: list[entries.GeneralizedForce] = []
-        self.force_of: dict[str, int] = {}
         self.observed: list[OutputSpec] = []
         self.laws = function_calls.Laws()
         self.inboard = self.tree() if in_tree else [-1] * len(self.parts)
@@ -248,7 +247,7 @@ class Tables:
             self._relation(motor.name, self._drive(motor, coordinate, quantity, joint))
         else:
             index, words = len(self.forces), ("force value", "force power")
-            self._generalized_force(motor.drives, quantity, motor, joint)
+            self._generalized_force(motor.drives, quantity, motor, joint=joint)
         self.observed.append(OutputSpec(f"{motor.name}.{measured}", UNITS[measured], words[0], index))
         self.observed.append(OutputSpec(f"{motor.name}.power", "W", words[1], index))
 
@@ -303,29 +302,29 @@ class Tables:
 
     # ---- forces ----
 
-    def _generalized_force(self, parameter: str, quantity: int, element: Any, joint: int = -1) -> None:
-        """Add a generalized force by a number or a user function."""
-        self.force_of[element.name] = len(self.forces)
+    def _generalized_force(self, parameter: str, quantity: int, element: Any, sign: int = 1, **more: Any) -> None:
+        """Add a generalized force by a number or a user function, times `sign`, with a damping and at a joint by `more`."""
         if element.law.constant is not None:
-            value = self.numbers(element, parameter, element.law.constant)
-            self.forces.append(entries.GeneralizedForce("constant", quantity, value=value, joint=joint))
+            value = sign * self.numbers(element, parameter, element.law.constant)
+            self.forces.append(entries.GeneralizedForce("constant", quantity, value=value, **more))
             return
         quantities, picks = self._inputs(element.law.measures)
         reads = tuple(dict.fromkeys(element.law.reactions.values()))
         picks += [(len(quantities) + reads.index(name), False) for name in element.law.reactions.values()]
-        row = self.laws.add(function_calls.ForceLaw(element.law, picks, self.parameters))
-        self.forces.append(entries.GeneralizedForce("law", quantity, law=row, inputs=quantities, joint=joint, reads=reads,
-                                                    what=element.law.what))
+        row = self.laws.add(function_calls.ForceLaw(element.law, picks, self.parameters, sign))
+        self.forces.append(entries.GeneralizedForce("law", quantity, law=row, inputs=quantities, reads=reads,
+                                                    what=element.law.what, **more))
 
     def _table_force(self, element: TableForce) -> None:
         """Add the generalized force along each marker quantity of an element, and its measures."""
         index, joint = len(self.forces), -1 if element.joint is None else self.joint_number[element.joint.name]
         for i, quantity in enumerate(self._element_quantities(element)):
-            number = self._quantity(f"{element.name} {i}", quantity)
+            stiffness, damping = (self.numbers(element, path, element.values.get(path, 0.0)) for path in paths(element.row)[i])
             if element.law is not None:
-                self._generalized_force("value", number, element, joint)
+                number = self._quantity_of(element.own) if element.own else self._quantity(f"{element.name} {i}", quantity)
+                self._generalized_force(element.drives, number, element, element.row.sign, joint=joint, damping=damping)
                 continue
-            stiffness, damping = (self.numbers(element, path, element.values[path]) for path in paths(element.row)[i])
+            number = self._quantity(f"{element.name} {i}", quantity)
             if quantity.kind == "rotation":         # damped by the angular velocity, not by the rate of the rotation vector
                 self.forces.append(entries.GeneralizedForce("spring", number, stiffness))
                 number, stiffness = self._quantity(f"{element.name} {i} turn", quantity._replace(kind="turn")), 0.0

@@ -11,12 +11,12 @@ import numpy as np
 
 from ..._private import checks
 from ...errors import WrongValue, sentence
-from ..building.table_force_verbs import NEEDED, sides
+from ..building.table_force_verbs import NEEDED, sides, words
 from ..building.table_joint_verbs import verb
 from ..building.table_verbs import FORCES, PLANE
 from ..elements.immutable import amend
 from ..elements.joints import Joint
-from ..elements.table_forces import TableForce, parameters
+from ..elements.table_forces import TableForce, law_word, parameters
 from .expressions_json import from_json
 from .space_from_json import IN_SPACE, frames_from_json, keep_rotations
 from .to_json import VERSION, WHAT
@@ -221,6 +221,7 @@ def _torque(m: Any, name: str, *, body: Any, against: Any, value: Any) -> None:
 def _table_force(force: type[TableForce], dimension: int) -> Callable[..., None]:
     """Reader of a kind of force element whose method is made from the core's tables."""
     entry = force.entries[dimension]
+    law, known = law_word(entry), words(entry)
 
     def make(m: Any, name: str, **given: Any) -> None:
         ends = [given.pop(side) for side in sides(force)]
@@ -233,14 +234,15 @@ def _table_force(force: type[TableForce], dimension: int) -> Callable[..., None]
             first, second = (m._point("a side", place) for place in places)
             stored["frames"] = frames_from_json(first, second, given.pop("frames"))
             given["axis"] = first.body.pose.direction(stored["frames"][0][0])
-        if "value" in given:
-            given["value"], given["of"] = law_and_of(given["value"], "value")
+        if law in given:
+            given[law], given["of"] = law_and_of(given[law], law)
         amend(getattr(m, force.kind)(name, *places, **given), **stored)
 
     place = ("frames" if dimension == 3 else "axis",) if entry.axes else ()
-    wanted = (*sides(force), *place, *(parameters(entry) or ("value",)))
+    wanted = (*sides(force), *place, *parameters(entry), *([law] if law else ()))
     vars(make)["__signature__"] = inspect.Signature([
-        inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, default=None if word == "length" else NEEDED) for word in wanted])
+        inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, default=NEEDED if known.get(word, 0.0) is not None else None)
+        for word in wanted])
     return make
 
 

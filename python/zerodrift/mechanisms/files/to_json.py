@@ -133,7 +133,7 @@ def _table_force(force: TableForce, drawing: Drawing) -> dict[str, Any]:
         place["axis"] = numbers(force.axis)
     if force.frames is not None:
         place["frames"] = [numbers(frame) for frame in force.frames]
-    return {**place, **(force.given() if force.law is None else {"value": law_to_json(force.law)})}
+    return {**place, **force.given(), **({force.drives: law_to_json(force.law)} if force.law else {})}
 
 
 WRITTEN: dict[str, Callable[[Any, Drawing], dict[str, Any]]] = {
