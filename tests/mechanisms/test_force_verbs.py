@@ -185,7 +185,7 @@ def test_each_refusal_names_what_is_wrong():
     bob = m.particle("bob", 1.0, at=(0, 1))
     spring, bushing, force, torque = (force_verb(made_force(kind)) for kind in ("spring", "bushing", "force", "torque"))
     for call, error, text in (
-            (lambda: spring(m, "F", P.body, Q, stiffness=1), TypeError, "first must be a point"),
+            (lambda: spring(m, "F", 3.0, Q, stiffness=1), TypeError, "first must be a point"),
             (lambda: spring(m, "F", P, Q), TypeError, r"spring 'F' needs one of stiffness and force, not none"),
             (lambda: spring(m, "F", P, Q, stiffness=-1), ValueError, "stiffness of 'F' must be at least 0"),
             (lambda: spring(m, "F", P, Q, stiffness=(1, 2)), ValueError, "stiffness of 'F'"),
@@ -212,7 +212,7 @@ def test_refusals_name_what_can_be_given_instead(dimension):
     rod = m.rod("stay", m.ground.point((1.0,) * dimension), body.point(origin))
     for given, remedy in ((body, r"one\.point\(\(0\.0, 0\.0.* one\.point\(at=\.\.\.\)"), (rod, "'stay'.*a link has points")):
         with refused("wrong-element", f"second must be a point.*{remedy}"):
-            m.spring("spring", m.ground.point(origin), given, stiffness=1.0)
+            m.rod("rod", m.ground.point(origin), given)
         with refused("wrong-element", f"at must be a point.*{remedy}"):
             m.particle("mass", 1.0, at=given)
 

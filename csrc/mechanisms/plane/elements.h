@@ -50,6 +50,8 @@ enum zd_plane_quantity_kind {
     ZD_PLANE_DISTANCE,      /* m: |Q - P| */
     ZD_PLANE_GLIDE,         /* m: no value, only a rate, the velocity of Q along e. No force on the first body. */
     ZD_PLANE_SKID,          /* m: the same along n */
+    /* m: only a rate, along e, which is fixed in global axes: the velocity of Q minus that of the first body there. */
+    ZD_PLANE_SHEAR,
     ZD_PLANE_QUANTITIES
 };
 

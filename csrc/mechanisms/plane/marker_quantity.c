@@ -23,6 +23,7 @@ static direction direction_of(const zd_plane_quantity *quantity, const zd_plane_
     switch (quantity->kind) {
     case ZD_PLANE_X: return (direction){{1, 0}, 0};
     case ZD_PLANE_Y: return (direction){{0, 1}, 0};
+    case ZD_PLANE_SHEAR: return (direction){axis, 0};
     case ZD_PLANE_ACROSS:
     case ZD_PLANE_SKID: axis = zd_turned(1, axis);      /* fall through */
     default: return (direction){zd_rotated(first->cosine, first->sine, axis), 1};
@@ -31,6 +32,7 @@ static direction direction_of(const zd_plane_quantity *quantity, const zd_plane_
 
 static int is_angle(const zd_plane_quantity *quantity) { return quantity->kind == ZD_PLANE_ANGLE; }
 static int is_distance(const zd_plane_quantity *quantity) { return quantity->kind == ZD_PLANE_DISTANCE; }
+static int is_shear(const zd_plane_quantity *quantity) { return quantity->kind == ZD_PLANE_SHEAR; }
 static int is_of_second_alone(const zd_plane_quantity *quantity)
 {
     return quantity->kind == ZD_PLANE_GLIDE || quantity->kind == ZD_PLANE_SKID;
@@ -50,9 +52,10 @@ zd_plane_reading zd_plane_quantity_read(const zd_plane_quantity *quantity, const
     double length = is_distance(quantity) ? sqrt(zd_inner(apart, apart)) : 0;
     /* Coincident points have no direction: a force along their distance is zero there, as that of a spring without free length is. */
     direction along = is_distance(quantity) ? (direction){zd_times(length > 0 ? 1 / length : 0, apart), 0} : direction_of(quantity, first);
-    zd_vector on_first = along.turns ? zd_plus(arm1, apart) : arm1;     /* moment arm of the opposite force, from the first mass centre */
+    /* moment arm of the opposite force, from the first mass centre */
+    zd_vector on_first = along.turns || is_shear(quantity) ? zd_plus(arm1, apart) : arm1;
     return (zd_plane_reading){
-        .value = (is_distance(quantity) ? length : zd_inner(along.unit, apart)) - quantity->zero,
+        .value = is_shear(quantity) ? 0 : (is_distance(quantity) ? length : zd_inner(along.unit, apart)) - quantity->zero,
         .first = {zd_times(-1, along.unit), -zd_cross(on_first, along.unit)},
         .second = {along.unit, zd_cross(arm2, along.unit)},
     };
@@ -80,6 +83,11 @@ double zd_plane_quantity_rate(const zd_plane_quantity *quantity, const zd_plane_
         return zd_inner(unit, speed);
     }
     zd_vector apart = zd_minus(zd_plus(second->at, arm2), zd_plus(first->at, arm1));
+    if (is_shear(quantity)) {
+        zd_vector unit = direction_of(quantity, first).unit;
+        *bias = zd_inner(unit, zd_minus(change, zd_plus(twist1->bias, zd_turned(twist1->turn, zd_minus(speed, twist1->speed)))));
+        return zd_inner(unit, zd_minus(speed, speed_of(twist1, zd_plus(arm1, apart))));
+    }
     speed = zd_minus(speed, speed_of(twist1, arm1));
     change = zd_minus(change, bias_of(twist1, arm1));
     if (is_distance(quantity)) {

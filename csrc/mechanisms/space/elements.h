@@ -27,6 +27,7 @@ enum zd_space_quantity_kind {
     ZD_SPACE_SPIN,          /* rad/s: a . angular velocity of the second. No force on the first body. */
     ZD_SPACE_TURN,          /* rad/s: a . (angular velocity of the second minus that of the first) */
     ZD_SPACE_ROTATION,      /* rad: a . phi, where phi is the rotation vector of the second body against the first, of length below pi */
+    ZD_SPACE_SHEAR,         /* m/s: a . (velocity at Q of the second body minus that of the first), where a is fixed in global axes */
     ZD_SPACE_QUANTITIES
 };
 

@@ -203,6 +203,7 @@ static zd_space_reading read(const zd_space_quantity *quantity, const zd_space_p
     case ZD_SPACE_GLIDE: to.second = (zd_space_wrench){a, zd_cross3(direction_of(pose + quantity->second, quantity->point2), a)}; break;
     case ZD_SPACE_SPIN: to.second.torque = a; break;
     case ZD_SPACE_TURN: twist_both(a, &to); break;
+    case ZD_SPACE_SHEAR: read_along(quantity, pose, zd_vector3_of(quantity->a), apart_of(quantity, pose), &to), to.value = 0; break;
     default: read_contact(quantity, pose, a, apart_of(quantity, pose), &to);
     }
     to.value -= quantity->zero;
@@ -328,6 +329,8 @@ static double own_bias(const zd_space_quantity *quantity, const zd_space_pose *p
     case ZD_SPACE_CLEARANCE: return bias_of_contact(quantity, pose, twist, TURNING_FIRST(o), TURNING_FIRST(o), APART);
     case ZD_SPACE_SLIP: return bias_of_contact(quantity, pose, twist, TURNING_FIRST(a), TURNING_FIRST(o), APART);
     case ZD_SPACE_GLIDE: return bias_of_glide(TURNING_FIRST(a), POINT_Q);
+    case ZD_SPACE_SHEAR: return zd_inner3(zd_vector3_of(quantity->a), zd_minus3(POINT_Q.second,
+                                       zd_cross3(first_twist->spin, zd_minus3(POINT_Q.rate, first_twist->speed))));
     case ZD_SPACE_SPIN:     /* same for a turn, as the rate of a is perpendicular to the first body's own angular velocity */
     case ZD_SPACE_TURN: return zd_inner3(TURNING_FIRST(a).rate, second_twist->spin);
     default: return bias_of_place(quantity, APART);

@@ -10,7 +10,7 @@ from support import along, assert_close
 from zerodrift._private.gateway.mechanisms.plane import QUANTITY_KINDS, element_kinds
 
 FIRST, SECOND, AXIS, ZERO = (0.3, -0.4), (-0.2, 0.7), (0.6, 0.8), 0.25
-INTEGRABLE = sorted(QUANTITY_KINDS.keys() - {"glide", "skid"})
+INTEGRABLE = sorted(QUANTITY_KINDS.keys() - {"glide", "skid", "shear"})
 
 
 def points(poses):
@@ -74,6 +74,19 @@ def test_a_gliding_point_is_measured_along_an_axis_of_the_first_body(which, dire
 
     speed = along(lambda p: frame(p)[1], (p, v))
     assert_close(system.measured("rates", 0, p, v), np.array([-2 * frame(p)[direction] @ speed]), tol.DIFFERENCE, scale=1)
+    rate = along(lambda p, v: system.measured("rates", 0, p, v), (p, v), (v, vdot))
+    assert_close(system.measured("accelerations", 0, p, v, vdot), rate, tol.DIFFERENCE, scale=1)
+
+
+@pytest.mark.parametrize("ends", [(1, 2), (0, 1)])
+def test_shear_is_the_velocity_of_a_point_relative_to_the_first_body_there(ends, state):
+    p, v, vdot = state
+    system, bodies = quantityd("shear", *ends), [np.vstack([np.zeros(3), x.reshape(2, 3)]) for x in (p, v)]
+    (_, (q, qdot)), (r, rdot) = (tuple(each[end] for each in bodies) for end in ends), (each[ends[0]] for each in bodies)
+    arm = rotation(q[2]) @ SECOND
+    there = q[:2] + arm - r[:2]
+    speed = qdot[:2] + qdot[2] * np.array([-arm[1], arm[0]]) - rdot[:2] - rdot[2] * np.array([-there[1], there[0]])
+    assert_close(system.measured("rates", 0, p, v), np.array([-2 * np.array(AXIS) @ speed]), tol.SAME, scale=1)
     rate = along(lambda p, v: system.measured("rates", 0, p, v), (p, v), (v, vdot))
     assert_close(system.measured("accelerations", 0, p, v, vdot), rate, tol.DIFFERENCE, scale=1)
 

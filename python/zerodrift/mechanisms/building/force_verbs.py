@@ -148,7 +148,8 @@ class ForceVerbs(Elements):
         return self._add(Actuator(name, first, second, drives, law))
 
     def force(self, name: str, point: Point | Body | str, along: ArrayLike | None = None, *,
-              value: LawLike | ArrayLike | None = None, of: Bindings | None = None, frame: Body | str | None = None) -> Force:
+              value: LawLike | ArrayLike | None = None, of: Bindings | None = None, frame: Body | str | None = None,
+              against: Point | Body | str | None = None) -> Force:
         """Let a force act at a point.
 
         Parameters
@@ -164,6 +165,10 @@ class ForceVerbs(Elements):
             Measures that the callable receives, by argument name.
         frame : Body or name, optional
             With which the direction turns; left out: it stays.
+        against : Body, Point or name, optional
+            On which the opposite acts. On a body it acts at the same place, without a free moment; `frame` must then be that body
+            or left out. At a point, also that of a particle, it acts there: both are a pair with a free moment, value times the
+            distance of their lines, which ``print(m)`` names. Left out: the ground.
 
         Returns
         -------
@@ -188,6 +193,13 @@ class ForceVerbs(Elements):
         <force thrust at rocket>
         >>> m.force("wind", rocket, value=(0.5, 0.0))
         <force wind at rocket>
+
+        A spring along the drawing's axes between two bodies pulls the second back:
+
+        >>> load = m.body("load", 1.0, 0.1, at=(0.2, 0))
+        >>> m.force("tie", load, along=(1, 0), value=lambda a, b: -50.0 * (b - a - 0.2), against=rocket.center,
+        ...         of={"a": rocket.position.x, "b": load.position.x})
+        <force tie at load>
         """
         name = self._new_name(name, "force")
         along, value = self._direction_and_magnitude(name, along, value)
@@ -197,8 +209,24 @@ class ForceVerbs(Elements):
         if point.body is self.ground:
             raise WrongValue(f"force {name!r} acts on the ground, which does not move: point must be of another body",
                              "wrong-element")
+        against = self._reacting(name, point.body, frame, against)
         law = self._law(f"value of force {name!r}", value, of, reactions=True)
-        return self._add(Force(name, point, frame.pose.local_direction(along), frame, law))
+        return self._add(Force(name, point, frame.pose.local_direction(along), frame, law, against))
+
+    def _reacting(self, name: str, body: Body, frame: Body, given: Any) -> Body | Point | None:
+        """Body or point on which the opposite of a force acts; None: the ground."""
+        against = self._named("against", given)
+        if against is None or against is self.ground or (isinstance(against, Point) and against.body is self.ground):
+            return None
+        is_body = isinstance(against, Body) and not isinstance(against, Particle)
+        against = self._body("against", against) if is_body else self._point("against", against)
+        if body is getattr(against, "body", against):
+            raise WrongValue(f"force {name!r} acts on {body.name!r} and against it: two different bodies are needed",
+                             "wrong-element")
+        if is_body and frame not in (self.ground, against):
+            raise WrongValue(f"frame of force {name!r} must be {against.name!r}, against which it acts, or left out, not "
+                             f"{frame.name!r}; against=, as a point, takes any frame", "conflicting-arguments")
+        return against
 
     def _direction_and_magnitude(self, name: str, along: Any, value: Any) -> tuple[np.ndarray, Any]:
         """Unit vector of a force in the drawing, (dimension,), and the magnitude along it."""

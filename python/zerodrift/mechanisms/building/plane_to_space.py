@@ -229,7 +229,8 @@ def _bushing(m: Any, bushing: Any) -> None:
 
 def _force(m: Any, force: Any) -> None:
     m.force(force.name, _point(m, force.point), along=_raised(force.frame.pose.direction(force.along)),
-            frame=m[force.frame.name], **_law(m, force.law))
+            frame=m[force.frame.name], **_law(m, force.law),
+            against=_point(m, force.against) if isinstance(force.against, Point) else getattr(force.against, "name", None))
 
 
 def _torque(m: Any, torque: Any) -> None:

@@ -145,10 +145,9 @@ def _ends(m: Elements, entry: ElementKind, name: str, given: dict[str, Any]) -> 
     """The joint, or the points of both bodies."""
     if entry.at_joint:
         return (m._joint(f"joint of {name!r}", given["joint"], ("angle",)),)
-    first, second = given["first"], given["second"]
     if is_between_points(entry):
-        return m._different(name, m._point("first", first), m._point("second", second))
-    return m._sides(name, first, second, given["at"])
+        return m._different(name, *(m._point(side, given[side], center=True) for side in ("first", "second")))
+    return m._sides(name, given["first"], given["second"], given["at"])
 
 
 def _directions(m: Elements, entry: ElementKind, name: str, given: dict[str, Any], ends: tuple[Any, ...]) -> dict[str, Any]:

@@ -132,17 +132,47 @@ class Bushing(TableForce):
 
 
 class Force(TableForce):
-    """A force at a point along a direction, `Mechanism.force`."""
+    """A force at a point along a direction, `Mechanism.force`.
+
+    Attributes
+    ----------
+    point : Point
+    along : ndarray (2,) or (3,)
+        Its direction in the axes of `frame`.
+    frame : Body
+    law : Law
+    against : Body, Point or None
+        On which the opposite acts: on a body at the same place, or at a point; None: the ground.
+    """
 
     kind = "force"
 
-    def __init__(self, name: str, point: Point, along: np.ndarray, frame: Body, law: Law) -> None:
-        self.name, self.point, self.along, self.frame, self.law = name, point, along, frame, law
+    def __init__(self, name: str, point: Point, along: np.ndarray, frame: Body, law: Law,
+                 against: Body | Point | None = None) -> None:
+        self.name, self.point, self.along, self.frame, self.law, self.against = name, point, along, frame, law, against
 
     axis = property(lambda self: self.along, doc="Its direction in the axes of `frame`.")
     frames = property(lambda self: (self.along[None], None), doc="The same as a row.")
-    ends = property(lambda self: (self.frame, self.point), doc="The body of the direction, and the point.")
     dimension = property(lambda self: self.point.dimension, doc="2 in the plane, 3 in space.")
+    axes_of = property(lambda self: self.frame, doc="The body of its direction.")
+
+    @property
+    def ends(self) -> tuple[Body, Point]:
+        """The body of the direction, or the one that gets the opposite force at the same place, and the point."""
+        return self.against if isinstance(self.against, Body) else self.frame, self.point
+
+    @property
+    def quantities(self) -> tuple[ElementQuantity, ...]:
+        """Marker quantities it acts along."""
+        if not isinstance(self.against, Body):
+            return self.row.quantities
+        return tuple(each._replace(kind="along" if self.frame is self.against else "shear") for each in self.row.quantities)
+
+    @property
+    def parts(self) -> tuple[Force, ...]:
+        """The force, and the opposite one at a point of another body."""
+        point = self.against
+        return (self, Force(self.name, point, -self.along, self.frame, self.law)) if isinstance(point, Point) else (self,)
 
     def __repr__(self) -> str:
         return f"<force {self.name} at {self.point.body.name}>"

@@ -163,6 +163,9 @@ class TableForce(Fixed):
         """Points or bodies that its marker quantities belong to."""
         return (self.first, self.second) if self.joint is None else self.joint.bodies
 
+    axes_of = property(lambda self: getattr(self.ends[0], "body", self.ends[0]), doc="Body in whose axes its directions are.")
+    parts = property(lambda self: (self,), doc="It, and what acts with it by the same law.")
+
     @property
     def quantities(self) -> tuple[ElementQuantity, ...]:
         """Marker quantities it acts along."""

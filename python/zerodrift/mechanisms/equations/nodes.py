@@ -66,8 +66,9 @@ def with_nodes(plan: PlanePlan, number: Numbering) -> PlanePlan[Node]:
         number(link.sine), number(link.mass), number(link.inertia)) for i, link in enumerate(plan.links, 1))
     quantities = tuple(Quantity(
         quantity.kind, quantity.first, quantity.second, number.pair(quantity.point1, quantity.first),
-        number.pair(quantity.point2, quantity.second), number.pair(quantity.axis, "axis", quantity.first),
-        number(quantity.zero)) for quantity in plan.quantities)
+        number.pair(quantity.point2, quantity.second),
+        number.pair(quantity.axis, "axis", 0 if quantity.kind == "shear" else quantity.first), number(quantity.zero))
+        for quantity in plan.quantities)
     rows = tuple(row_with_nodes(row, number) for row in plan.rows)
     forces = tuple(force_with_nodes(force, number) for force in plan.forces)
     return PlanePlan(links, quantities, rows, forces, number.pair(plan.gravity))
@@ -208,10 +209,15 @@ class Equations(Relations):
         graph, first, second = self.graph, self.frames[quantity.first], self.frames[quantity.second]
         if quantity.kind == "angle":
             return self._read(self.difference(second.angle, first.angle), quantity.zero)
-        axis = quantity.axis if quantity.kind in ("along", "glide") else (graph.minus(quantity.axis[1]), quantity.axis[0])
+        axis = (graph.minus(quantity.axis[1]), quantity.axis[0]) if quantity.kind in ("across", "skid") else quantity.axis
         there = self._plus(second.at, self._turned(second, quantity.point2))
         if quantity.kind in ("glide", "skid"):
             return Reading(graph.zero, graph.dot(self._turned(first, axis), self._rates(there)))
+        if quantity.kind == "shear":
+            apart, turn = self._minus(there, first.at), self.rate_of(first.angle)
+            rate = self._rates(apart)
+            return Reading(graph.zero, graph.dot(axis, (graph.plus(rate[0], graph.times(turn, apart[1])),
+                                                        self.difference(rate[1], graph.times(turn, apart[0])))))
         if quantity.kind in ("along", "across"):       # the first body's own point is at rest in its axes
             value = graph.dot(self._turned(first, axis), self._minus(there, first.at))
             return self._read(value, graph.plus(graph.dot(axis, quantity.point1), quantity.zero))

@@ -50,10 +50,10 @@ def with_nodes(plan: SpacePlan, number: nodes.Numbering) -> SpacePlan[Node]:
                     three(direction(each, i) for each in link.far_axes))
 
     def read(quantity: Quantity) -> Quantity[Node]:
-        first, second = quantity.first, quantity.second
+        first, second, axes = quantity.first, quantity.second, 0 if quantity.kind == "shear" else quantity.first
         shape = three(three(number(each, "shape", second) for each in row) for row in quantity.shape)
         return Quantity(quantity.kind, first, second, point(quantity.point1, first), point(quantity.point2, second),
-                        direction(quantity.a, first), direction(quantity.o, first), direction(quantity.b, second), shape,
+                        direction(quantity.a, axes), direction(quantity.o, first), direction(quantity.b, second), shape,
                         number(quantity.zero), quantity.counted)
 
     return SpacePlan(
@@ -121,6 +121,9 @@ class Equations(Relations):
         a = self.frames.turned(quantity.first, quantity.a)
         if quantity.kind == "glide":
             return nodes.Reading(graph.zero, graph.dot(a, self._rates(Q)))
+        if quantity.kind == "shear":
+            way = of.minus(Q, first.at)
+            return nodes.Reading(graph.zero, graph.dot(quantity.a, of.plus(self._rates(way), of.cross(way, first.spin))))
         if quantity.kind in ("spin", "turn"):
             spin = second.spin if quantity.kind == "spin" else of.minus(second.spin, first.spin)
             return nodes.Reading(graph.zero, graph.dot(a, spin))

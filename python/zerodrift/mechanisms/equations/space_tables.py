@@ -136,7 +136,7 @@ class SpaceTables(Tables):
         if element.joint is not None:
             known = self.coordinate_quantity_of(element.joint, "angle")
             return [known._replace(zero=element.zero(each, self.numbers)) for each in element.quantities]
-        ends, bodies = list(map(self._end, element.ends)), list[Any](getattr(end, "body", end) for end in element.ends)
+        ends, bodies = list(map(self._end, element.ends)), (element.axes_of, getattr(element.ends[1], "body", element.ends[1]))
         near, far = ([self._direction(body, row) for row in (() if frame is None else frame)]
                      for body, frame in zip(bodies, element.frames or ((), ()), strict=True))
         return [self._along(each, ends, near, far)._replace(zero=element.zero(each, self.numbers)) for each in element.quantities]

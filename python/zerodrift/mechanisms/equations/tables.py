@@ -318,7 +318,7 @@ class Tables:
     def _table_force(self, element: TableForce) -> None:
         """Add the generalized force along each marker quantity of an element, and its measures."""
         index, joint = len(self.forces), -1 if element.joint is None else self.joint_number[element.joint.name]
-        for i, quantity in enumerate(self._element_quantities(element)):
+        for i, quantity in [each for part in element.parts for each in enumerate(self._element_quantities(part))]:
             stiffness, damping = (self.numbers(element, path, element.values.get(path, 0.0)) for path in paths(element.row)[i])
             if element.law is not None:
                 number = self._quantity_of(element.own) if element.own else self._quantity(f"{element.name} {i}", quantity)

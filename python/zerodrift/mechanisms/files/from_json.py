@@ -206,10 +206,11 @@ def _actuator(m: Any, name: str, *, first: Any, second: Any, drives: Any, law: A
     m.actuator(name, place_from_json(m, first), place_from_json(m, second), of=of, **{drives: value})
 
 
-def _force(m: Any, name: str, *, point: Any, along: Any, frame: Any, value: Any) -> None:
+def _force(m: Any, name: str, *, point: Any, along: Any, frame: Any, value: Any, against: Any = None) -> None:
     along, frame = direction_from_json("along", along, m.dimension), m._body("frame", frame)
     value, of = law_and_of(value, "value")
-    force = m.force(name, place_from_json(m, point), along=frame.pose.direction(along), value=value, of=of, frame=frame)
+    force = m.force(name, place_from_json(m, point), along=frame.pose.direction(along), value=value, of=of, frame=frame,
+                    against=None if against is None else place_from_json(m, against))
     amend(force, along=along)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from ...laws.table import Table
 from ..building.coupling_verbs import _Follows, _Profile, _Sum
 from ..building.table_verbs import FORCES
-from ..elements.bodies import kind_of
+from ..elements.bodies import Body, kind_of
 from ..elements.drawing import Drawing
 from ..elements.joints import JOINTS, Coupling
 from ..elements.table_forces import ELEMENTS, TableForce
@@ -120,7 +120,8 @@ def _actuator(actuator: Any, drawing: Drawing) -> dict[str, Any]:
 
 def _force(force: Any, drawing: Drawing) -> dict[str, Any]:
     return {"point": place(force.point, drawing), "along": numbers(force.along), "frame": force.frame.name,
-            "value": law_to_json(force.law)}
+            "value": law_to_json(force.law), **({} if force.against is None else {"against": force.against.name if isinstance(
+                force.against, Body) else place(force.against, drawing)})}
 
 
 def _torque(torque: Any, drawing: Drawing) -> dict[str, Any]:

@@ -42,9 +42,8 @@ def acting(element: Any, moments: Sequence[Posed] | Sequence[SpacePosed], values
 def _direction(element: Any, posed: Posed | SpacePosed) -> np.ndarray:
     """Unit vector (2,) or (3,) of a force on its second point whose measure is positive."""
     if isinstance(element, TableForce) and not has(element.row, "distance"):
-        first: Any = getattr(element.ends[0], "body", element.ends[0])
         axis: Any = element.axis if element.frames is None else element.frames[0][0]
-        along = posed.direction(first, axis)
+        along = posed.direction(element.axes_of, axis)
         return along if not has(element.row, "across", "skid") else np.array([-along[1], along[0]])
     apart = posed.at(element.second) - posed.at(element.first)
     pulls = isinstance(element, TableForce) and element.row.sign < 0

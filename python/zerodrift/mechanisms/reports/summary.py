@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
+import numpy as np
+
 from ...errors import ZerodriftError, sentence
+from ..elements.bodies import Point
 from ..elements.drawing import Drawing
-from ..elements.forces import Actuator, Motor
+from ..elements.forces import Actuator, Force, Motor
 from ..elements.joints import Joint
 from ..elements.numbers import AS_GIVEN
 from ..elements.table_forces import TableForce
@@ -47,6 +50,8 @@ def report(drawing: Drawing) -> str:
     driven += [f"{actuator.name} ({actuator.drives})" for actuator in drawing.of(Actuator)]
     if driven:
         lines.append(f" driven: {', '.join(driven)}")
+    lines += [f" force {force.name} is a pair at two points, with a free moment: value times {_arm(force):.3g} m as drawn"
+              for force in drawing.of(Force) if isinstance(force.against, Point)]
     called = [f"{law.what} ({law.why_called})" for each in drawing.elements.values()
               if (law := getattr(each, "law", None)) and law.why_called]
     if called:
@@ -54,6 +59,12 @@ def report(drawing: Drawing) -> str:
     found = cost.cost(tables_of(drawing, AS_GIVEN, in_tree=True), exact=True)
     lines.append(f" a simulation takes {found.taken} coordinates: {found.in_words}")
     return "\n".join(lines)
+
+
+def _arm(force: Force) -> float:
+    """Distance in m between the lines along which a force and its opposite act, as drawn."""
+    apart, along = force.point.drawn - force.against.drawn, force.frame.pose.direction(force.along)
+    return float(np.linalg.norm(apart - apart @ along * along))
 
 
 def _freedom(drawing: Drawing, counted: Count) -> str:
