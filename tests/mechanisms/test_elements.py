@@ -363,3 +363,20 @@ def test_events_of_other_systems_by_the_names_of_their_coordinates():
     sol = zd.simulate(bar, 1.0, step=0.01, events=[zd.Event("alpha1", value=2.0), "alpha2_dot"])
     assert abs(sol.p_events[0][0][0] - 2.0) < 1e-12
     assert abs(sol.v_events[1][0][1]) < 1e-12
+
+
+def test_a_parameter_is_added_to_those_of_the_mechanism():
+    """Laws name both; a wheel on its pin is braked as exp(-(mu + c) t)."""
+    m, _, pins = wheels(1, parameters={"c": 0.1})
+    m.parameter("mu", 0.3)
+    m.motor("brake", pins[0], torque=lambda mu, c, speed: -(mu + c) * speed)
+    m.start({"pin0.speed": 2.0})
+    assert " parameters: c = 0.1, mu = 0.3\n" in str(m)
+    for mu, system in ((0.3, m), (0.7, m.with_parameters(mu=0.7))):
+        sol = zd.simulate(system, 1.0, step=0.01)
+        np.testing.assert_allclose(sol["pin0.speed"], 2 * np.exp(-(mu + 0.1) * sol.t), rtol=1e-9)
+    for name, code in (("mu", "duplicate-name"), ("t", "duplicate-name"), ("a b", "wrong-value"), (3, "wrong-type")):
+        with refused(code):
+            m.parameter(name, 1.0)
+    with refused("wrong-type"):
+        m.parameter("nu", "much")

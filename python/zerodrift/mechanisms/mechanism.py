@@ -43,7 +43,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
     gravity : array_like (dimension,), optional
         In m/s^2, in the drawing's axes; left out: none.
     parameters : dict of str to float, optional
-        Numbers of one's own, which callables and expressions may name.
+        Numbers of one's own, which callables and expressions may name; `parameter` adds to them.
 
     Attributes
     ----------

@@ -27,11 +27,45 @@ class Elements:
     def __init__(self, parameters: Any) -> None:
         self.ground = SpaceGround() if self.dimension == 3 else Ground()
         self.ground._register = self._register_point
-        self.parameters = {key: checks.number(f"parameter {key!r}", value)
-                           for key, value in checks.parameters(parameters).items() if _is_identifier(key)}
+        self.parameters: dict[str, float] = {}
         self._elements: dict[str, Any] = {"ground": self.ground}
+        for name, value in checks.parameters(parameters).items():
+            self.parameter(name, value)
 
     # ---- adding ----
+
+    def parameter(self, name: str, value: float) -> None:
+        """Add a number of one's own, which laws name, as those of `Mechanism`.
+
+        Parameters
+        ----------
+        name : str
+            An identifier, as callables take it as an argument.
+        value : float
+            `with_parameters` makes systems with another value.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If the name is that of time, a state or another parameter, or the value is not a finite number.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("sledge")
+        >>> sledge = m.particle("sledge", 2.0, at=(0, 0))
+        >>> m.parameter("mu", 0.3)
+        >>> m.force("drag", sledge, along=(1, 0), value=lambda mu, v: -mu * v, of={"v": "sledge.velocity.x"})
+        <force drag at sledge>
+        >>> m.with_parameters(mu=0.5).parameters["mu"]
+        0.5
+        """
+        if not next(iter(checks.parameters({name: value}))).isidentifier():
+            raise WrongValue(f"parameters must have names that a callable can take, without a dot, not {name!r}")
+        if name in self.parameters:
+            raise WrongValue(f"parameter {name!r} is {self.parameters[name]:g} already: with_parameters() changes it",
+                             "duplicate-name")
+        self.parameters[name] = checks.number(f"parameter {name!r}", value)
 
     def _new_name(self, name: Any, what: str) -> str:
         return checked_name(name, what, self._elements)
@@ -232,12 +266,6 @@ class Elements:
     def motors(self) -> tuple[Motor, ...]:
         """Motors, in the order in which they were added."""
         return tuple(self._of(Motor))
-
-
-def _is_identifier(name: str) -> bool:
-    if not name.isidentifier():
-        raise WrongValue(f"parameters must have names that a callable can take, without a dot, not {name!r}")
-    return True
 
 
 OWN = "length", "angle", "displacement", "speed"    # measures that a law of an element has by these names

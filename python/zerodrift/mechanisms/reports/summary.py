@@ -52,6 +52,8 @@ def report(drawing: Drawing) -> str:
         lines.append(f" driven: {', '.join(driven)}")
     lines += [f" force {force.name} is a pair at two points, with a free moment: value times {_arm(force):.3g} m as drawn"
               for force in drawing.of(Force) if isinstance(force.against, Point)]
+    if drawing.parameters:
+        lines.append(f" parameters: {_listed([f'{name} = {value:g}' for name, value in drawing.parameters.items()])}")
     called = [f"{law.what} ({law.why_called})" for each in drawing.elements.values()
               if (law := getattr(each, "law", None)) and law.why_called]
     if called:
