@@ -81,6 +81,21 @@ def test_splines_are_out_of_reach():
         BlockCore(with_word(data, inputs + 3, 0.0))
 
 
+@pytest.mark.parametrize(("section", "place", "value", "sentence"), [
+    ("measures", 3, 1.0, "measure 2: its law must exist"), ("measures", 4, 1.0, "measure 2: its law must exist"),
+    ("measures", 4, 40.0, "measure 2: its law must exist"), ("measures", 6, 1.0, "measure power: what it reads"),
+    ("terms", 0, 2.0, "measure power: what it reads"), ("terms", 0, 9.0, "measure power: what it reads"),
+    ("terms", 1, 9.0, "measure power: what it reads")])
+def test_a_formula_reads_what_there_is(section, place, value, sentence):
+    m = zd.Mechanism("one")
+    pin = m.revolute("pin", m.ground, m.link("link", (0, 0), (1, 0), mass=1.0).start)
+    m.measure("power", lambda a, w: a * w, of={"a": pin.angle, "w": pin.speed})
+    data = zd.block(m, outputs=["power"])
+    first = first_word(data, section, WIDTHS) + place + (14 if section == "measures" else 0)
+    with refused("wrong-value", sentence):
+        BlockCore(with_word(data, first, value))
+
+
 def seeds():
     """Blocks of the plane and of space, in joint and in absolute coordinates, with and without user functions."""
     import sympy as sp
@@ -92,9 +107,10 @@ def seeds():
     m.motor("drive", pin, angle=zd.table(t, 0.2 * t**3))
     m.motor("push", elbow, torque=sp.sin(sp.Symbol("t")))
     m.force("wind", second.end, value=(2.0, 0.0))
-    return {"law": zd.block(m, outputs=["second.angle"]), "four_bar": four_bar(), "cam": zd.block(zd.models.cam_follower()),
-            "coin": zd.block(zd.models.coin()), "slider": zd.block(zd.models.slider_crank()),
-            "wishbone": zd.block(zd.models.double_wishbone(), outputs=[]),
+    m.measure("power", lambda M, w: M * w, of={"M": "push.torque", "w": elbow.speed})
+    return {"law": zd.block(m, outputs=["second.angle", "power"]), "four_bar": four_bar(),
+            "cam": zd.block(zd.models.cam_follower()), "coin": zd.block(zd.models.coin()),
+            "slider": zd.block(zd.models.slider_crank()), "wishbone": zd.block(zd.models.double_wishbone(), outputs=[]),
             "wishbone_absolute": zd.block(zd.models.double_wishbone().system("absolute"), outputs=[])}
 
 

@@ -52,6 +52,17 @@ def test_a_crank_has_the_bits_of_simulate_and_allocates_before_its_steps(tmp_pat
 
 
 @needs_compiler
+def test_measures_of_ones_own_are_outputs(tmp_path, built):
+    m = zd.models.slider_crank()
+    m.measure("idle", lambda t: t)
+    m.measure("load", lambda x, y, t: np.hypot(x, y) + t, of={"x": "pin.force.x", "y": "pin.force.y"})
+    folder = zd.c_source(m, tmp_path / "crank", step=1e-3, outputs=["load", "crank.angle"])
+    sol = zd.simulate(m, 0.1, step=1e-3, outputs=["load"], vector="baseline", closed_form=False)
+    rows, _ = printed(built(folder), 0.1)
+    np.testing.assert_array_equal(rows, np.column_stack([sol.t, sol["load"], sol["crank.angle"]]))
+
+
+@needs_compiler
 def test_a_disc_in_space_has_the_bits_of_simulate(tmp_path, built):
     folder = zd.c_source(zd.models.rolling_disc(), tmp_path / "disc", step=1e-3, outputs=["disc.position"], integrator="heun")
     sol = zd.simulate(zd.models.rolling_disc(), 0.5, step=1e-3, outputs=["disc.position"], integrator="heun", vector="baseline",

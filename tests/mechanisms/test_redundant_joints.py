@@ -119,6 +119,18 @@ def test_reactions_read_after_a_run_are_those_that_were_recorded(formulation):
     assert not sol.unique("ball 0.force").any()
 
 
+def test_a_formula_of_reactions_is_unique_if_these_are():
+    m = on_balls(2)
+    for name, joint in (("whole", "hinge"), ("part", "ball 0")):
+        m.measure(name, lambda x, y, z: np.sqrt(x**2 + y**2 + z**2),
+                  of=dict(zip("xyz", (f"{joint}.force.{axis}" for axis in "xyz"), strict=True)))
+    sol = zd.simulate(m, 0.1, step=0.01, outputs=["part"])
+    assert sol.unique("whole")
+    assert not sol.unique("part")
+    for name, joint in (("whole", "hinge"), ("part", "ball 0")):
+        np.testing.assert_allclose(sol[name], np.linalg.norm(sol[f"{joint}.force"], axis=1), rtol=1e-9)
+
+
 def with_a_handle(hinges):
     """A door whose axis is not upright, with a handle that swings on it."""
     m = zd.Mechanism("door", dimension=3, gravity=(0, 0, -9.81))

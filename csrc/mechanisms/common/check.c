@@ -75,9 +75,23 @@ static int count_of(const tables *of, int kind)
     }
 }
 
+static int formula_is_right(const zd_elements *elements, const zd_output_spec *formula)
+{
+    const int first = formula->term, count = formula->size;
+    if (!elements->law || formula->index < 0 || first < 0 || !zd_is_in(count, ZD_MAX_READS + 1) || first + count > elements->terms) return 0;
+    for (const zd_quantity_term *term = elements->term + first; term < elements->term + first + count; term++) {
+        if (!zd_is_in(term->quantity, elements->measures) || !(term->coefficient >= 0 && term->coefficient < ZD_MAX_COMPONENTS)) return 0;
+        const zd_output_spec *measure = elements->measure + term->quantity;
+        if (measure->kind == ZD_FORMULA || measure->size > ZD_MAX_COMPONENTS) return 0;
+    }
+    return 1;
+}
+
 static int measure_is_right(const tables *of, int i, zd_complaint to)
 {
     const zd_output_spec *measure = of->elements->measure + i;
+    if (measure->kind == ZD_FORMULA)
+        return formula_is_right(of->elements, measure) || zd_complain(to, "measure %s: what it reads must exist", measure->name);
     const int kind = measure->kind, count = count_of(of, kind), index = measure->index;
     const int size = kind <= ZD_ACCELERATIONS || kind >= ZD_FORCE_SUM ? measure->size : 1;
     const int last = kind == ZD_DRIVE_VALUE && zd_is_in(index, count) ? of->elements->relation[index].terms : kind == ZD_JOINT_TORQUE;

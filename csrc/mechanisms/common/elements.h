@@ -62,15 +62,19 @@ enum zd_output_kind {
                                  * drives the value up */
     ZD_DRIVE_POWER,
     ZD_FORCE_SUM,            /* N: sum of the forces of `size` generalized forces from `index` on, on their second body */
-    ZD_TORQUE_SUM            /* N m: sum of their moments about that body's mass centre, in space */
+    ZD_TORQUE_SUM,           /* N m: sum of their moments about that body's mass centre, in space */
+    ZD_FORMULA               /* user function `index` of t and of components of other measures: `size` entries of the table of terms from
+                              * `term` on, whose quantity is the measure and whose coefficient the component */
 };
+
+enum { ZD_MAX_READS = 32, ZD_MAX_COMPONENTS = 9 };     /* largest number of components that a formula reads, and of a measure that it reads */
 
 typedef struct zd_output_spec {
     const char *name, *unit;
     int kind;                   /* enum zd_output_kind */
     int index;
-    int size;                   /* number of marker quantities (values, rates, accelerations) or of generalized forces (sums of
-                                 * them) */
+    int size;                   /* number of marker quantities (values, rates, accelerations), of generalized forces (sums of them), or of
+                                 * what a formula reads */
     double scale;               /* factor of the measured value: -1 for tensions of springs */
     int term;                   /* for drive values: term of the relation, or their number, for the value; for joint torques 1: about the
                                  * point of the first body; otherwise 0 */

@@ -33,13 +33,26 @@ static int call(const zd_planned_elements *elements, const zd_readings *at, int 
     return !status || status == ZD_NOT_FINITE ? status : ZD_CALLBACK;
 }
 
-/* out (count,) <- values of user function `law`. If its expressions have values that are not finite, the function is called, as it
- * reports the reason. */
+/* out (count,) <- values of user function `law` of x and xdot. If its expressions have values that are not finite, the function is called,
+ * as it reports the reason. */
+static int answer(const zd_planned_elements *elements, const zd_readings *at, int law, double t, int count)
+{
+    if (elements->program && has_said(elements->program + law, at, t, count)) return ZD_DONE;
+    return call(elements, at, law, t);
+}
+
 static int ask(const zd_planned_elements *elements, const zd_readings *at, int law, int first, int terms, double t, int count)
 {
     read_terms(elements, at, first, terms);
-    if (elements->program && has_said(elements->program + law, at, t, count)) return ZD_DONE;
-    return call(elements, at, law, t);
+    return answer(elements, at, law, t, count);
+}
+
+int zd_law_evaluate(const zd_planned_elements *elements, const zd_readings *at, int law, int count, const double *x, double t, double *value)
+{
+    for (int i = 0; i < count; i++) at->x[i] = x[i];
+    const int status = answer(elements, at, law, t, 1);
+    *value = at->out[0];
+    return status;
 }
 
 /* ---- domain ---- */

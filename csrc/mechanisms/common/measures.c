@@ -85,9 +85,23 @@ static int measure_reaction(const zd_measuring *self, const zd_output_spec *meas
     return status;
 }
 
+/* Value of a user function of components of other measures, whose multipliers are those of the least reactions already. */
+static int measure_formula(const zd_measuring *self, const zd_output_spec *measure, const zd_measured_state *at, double *value)
+{
+    const zd_quantity_term *term = self->elements->term + measure->term;
+    double x[ZD_MAX_READS], read[ZD_MAX_COMPONENTS] = {0};
+    int status = ZD_DONE;
+    for (int i = 0; i < measure->size && !status; i++) {
+        status = zd_measures_evaluate(self, term[i].quantity, at, &(zd_measured){.value = read, .is_least = 1, .is_same_state = 1});
+        x[i] = read[(int)term[i].coefficient];
+    }
+    return status ? status : zd_law_evaluate(self->elements, self->readings, measure->index, measure->size, x, at->t, value);
+}
+
 static int measure_force(const zd_measuring *self, const zd_output_spec *measure, const zd_measured_state *at, double *value)
 {
     switch (measure->kind) {
+    case ZD_FORMULA: return measure_formula(self, measure, at, value);
     case ZD_JOINT_TENSION: return measure_tension(self, measure->index, at, value);
     case ZD_FORCE_VALUE:
     case ZD_FORCE_POWER: return zd_output_force(self->elements, self->readings, measure, at->t, value);
@@ -101,7 +115,7 @@ static int measure_force(const zd_measuring *self, const zd_output_spec *measure
 
 static int depends_on_multipliers(const zd_measuring *self, int kind)
 {
-    return self->elements->m && (kind < ZD_FORCE_VALUE || kind == ZD_DRIVE_VALUE || kind == ZD_DRIVE_POWER);
+    return self->elements->m && (kind < ZD_FORCE_VALUE || kind == ZD_DRIVE_VALUE || kind == ZD_DRIVE_POWER || kind == ZD_FORMULA);
 }
 
 /* self->least <- multipliers of the least reactions, unless the previous call has done so; with many constraints, those given */
@@ -134,6 +148,23 @@ static int find_changes(const zd_measuring *self, const zd_output_spec *measure,
     return status;
 }
 
+/* redundant (m,) <- sum of the changes of what a formula reads */
+static int find_changes_of_formula(const zd_measuring *self, const zd_output_spec *measure, const zd_measured_state *at, double *redundant)
+{
+    const int m = self->elements->m;
+    const size_t size = sizeof(double) * ZD_MAX_COMPONENTS * (size_t)m;
+    double *change = zd_allocate(size);
+    int status = change ? ZD_DONE : ZD_NO_MEMORY;
+    zd_clear(m, redundant);
+    for (const zd_quantity_term *term = self->elements->term + measure->term, *end = term + measure->size; term < end && !status; term++) {
+        memset(change, 0, size);
+        status = zd_measures_evaluate(self, term->quantity, at, &(zd_measured){.redundant = change, .is_least = 1, .is_same_state = 1});
+        for (int j = 0; j < m; j++) redundant[j] += fabs(change[(int)term->coefficient * m + j]);
+    }
+    zd_release(change);
+    return status;
+}
+
 /* Results of a measure of forces */
 static int measure_with_least(const zd_measuring *self, const zd_output_spec *measure, const zd_measured_state *at, const zd_measured *out)
 {
@@ -145,7 +176,9 @@ static int measure_with_least(const zd_measuring *self, const zd_output_spec *me
         status = find_least(self, at);
         of.lambda = self->least;
     }
-    if (!status && out->redundant && is_of_multipliers) status = find_changes(self, measure, at, size, out->redundant);
+    if (!status && out->redundant && is_of_multipliers)
+        status = measure->kind == ZD_FORMULA ? find_changes_of_formula(self, measure, &of, out->redundant)
+                                             : find_changes(self, measure, at, size, out->redundant);
     if (status || !out->value) return status;
     status = measure_force(self, measure, &of, out->value);
     for (int i = 0; i < size; i++) out->value[i] *= measure->scale;

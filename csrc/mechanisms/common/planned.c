@@ -62,6 +62,8 @@ static int longest_of(const zd_elements *elements)
         if (elements->relation[i].terms > longest) longest = elements->relation[i].terms;
     for (int i = 0; i < elements->forces; i++)
         if (elements->force[i].terms > longest) longest = elements->force[i].terms;
+    for (int i = 0; i < elements->measures; i++)
+        if (elements->measure[i].kind == ZD_FORMULA && elements->measure[i].size > longest) longest = elements->measure[i].size;
     return longest + (elements->reading ? elements->reading->count : 0);
 }
 

@@ -99,6 +99,8 @@ int zd_force_evaluate(const zd_planned_elements *elements, const zd_readings *at
                       double *value, double *rate);
 /* u <- the same with the reactions r that its user function reads; 0 if none has this user function. */
 int zd_force_read(const zd_planned_elements *elements, const zd_readings *at, int law, double t, const double *r, double *u);
+/* value <- a user function of t and of x (count,) alone */
+int zd_law_evaluate(const zd_planned_elements *elements, const zd_readings *at, int law, int count, const double *x, double t, double *value);
 /* zd_system.check_domain(), for all that has tables with ends */
 int zd_laws_check(const zd_planned_elements *elements, const zd_readings *at, double rtol, double atol, double t);
 int zd_forces_power(const zd_planned_elements *elements, const zd_readings *at, double t, double *power);     /* sum over all, for (28) */

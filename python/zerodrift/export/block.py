@@ -148,8 +148,10 @@ def _tables(chosen: Chosen, tables: Any, texts: blocks.Texts) -> tuple[dict[str,
     """Sections of the tables, of user functions and of inputs; numbers of entries; and names of measures."""
     quantities, observed = read(tables)
     if chosen.outputs is not None:
-        wanted = {*chosen.outputs, *chosen.watched}
-        quantities, observed = _kept(len(tables.quantities), quantities, [row for row in observed if row.name in wanted])
+        read_by = {name for row in observed for name in row.reads}      # formulas are kept, with what they read
+        wanted = {*chosen.outputs, *chosen.watched, *read_by, *(name.rpartition(".")[0] for name in read_by)}
+        observed = [row for row in observed if row.kind == "formula" or row.name in wanted]
+        quantities, observed = _kept(len(tables.quantities), quantities, observed)
     packed, grip = tables.written(quantities, observed), None
     if chosen.has_grip:
         grip = Grip(chosen.system._drawing.dimension, len(quantities), len(tables.forces), len(tables.parts))

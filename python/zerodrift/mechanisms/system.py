@@ -149,8 +149,7 @@ class MechanismSystem(Reported):
 
     @property
     def _has_plain_laws(self) -> bool:
-        laws = (getattr(element, "law", None) for element in self._drawing.elements.values())
-        return all(law is None or law.is_plain for law in laws)
+        return all(law.is_plain for law in self._drawing.laws)
 
     @property
     def compiled(self) -> bool:
@@ -280,9 +279,8 @@ class MechanismSystem(Reported):
 
     def _check_unique(self, t: float, p: np.ndarray, v: np.ndarray) -> None:
         """Check that redundant constraints leave the reactions unique that user functions read."""
-        laws = [law for element in self._drawing.elements.values() for law in [getattr(element, "law", None)] if law is not None]
-        read = [(law, name) for law in laws for name in law.reactions.values()] if 0 < self.m <= gateway.MAX_LEAST else []
-        for law, name in read:
+        laws = self._drawing.laws if 0 < self.m <= gateway.MAX_LEAST else []
+        for law, name in ((each, name) for each in laws for name in each.reactions.values()):
             place = self._watching.find(name)
             if place is not None and not self._watching.is_unique_at(place, t, p, v):
                 raise WrongValue(f"{law.what} must read reactions that are unique, and {name!r} is not, as constraints are "

@@ -237,10 +237,14 @@ def _torque(m: Any, torque: Any) -> None:
     m.torque(torque.name, torque.body.name, against=torque.against.name, axis=NORMAL, **_law(m, torque.law))
 
 
+def _own_measure(m: Any, measure: Any) -> None:
+    m.measure(measure.name, unit=measure.unit, **_law(m, measure.law))
+
+
 LIFTED: dict[str, Callable[[Any, Any], None]] = {
     "body": _body, "link": _link, "particle": _particle, "point": _named_point,
     **dict.fromkeys(PLANE.keys() & BY_KIND, _joint), "revolute": _revolute, "slot": _slot, "rolling": _rolling,
     "knife_edge": _knife_edge, "gear": _linear, "rack_pinion": _linear, "coupler": _coupling,
     "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
     "motor": _motor, "actuator": _actuator, **{kind: _table_force for kind, force in FORCES.items() if 3 in force.entries},
-    "bushing": _bushing, "force": _force, "torque": _torque}
+    "bushing": _bushing, "force": _force, "torque": _torque, "measure": _own_measure}

@@ -9,10 +9,14 @@ from typing import Any
 import numpy as np
 
 from ..._private import checks
+from ..._private.gateway.mechanisms.element_tables import MAX_READS
+from ..._private.types import Bindings, LawLike
 from ...errors import WrongName, WrongType, WrongValue
 from ..elements.bodies import Body, Ground, Link, Particle, Point, place
 from ..elements.forces import Motor
 from ..elements.joints import Joint
+from ..elements.measures import Measure
+from ..elements.own_measures import OwnMeasure
 from ..elements.space_bodies import SpaceGround
 from ..elements.user_functions import Law
 from ..equations.measure_names import is_dynamic, readable, reading
@@ -85,6 +89,50 @@ class Elements:
         """Check that the mechanism is planar, for elements that exist in the plane only."""
         if self.dimension == 3:
             raise WrongValue(f"{what} is there for mechanisms in the plane, not yet in space", "wrong-dimension")
+
+    def measure(self, name: str, value: LawLike, *, of: Bindings | None = None, unit: str = "") -> Measure:
+        """Add a measure of one's own: a function of time, parameters and other measures, which acts on nothing.
+
+        Solutions, events, outputs, plots and exports have it by its name, as other measures of accelerations.
+
+        Parameters
+        ----------
+        name : str
+        value : callable or SymPy expression
+            Its arguments are t, parameters and measures, also reactions and accelerations, as those of the torque of `motor`.
+        of : dict of str to measure
+            Measures that the callable receives, by argument name.
+        unit : str
+            For tables and plots.
+
+        Returns
+        -------
+        Measure
+
+        Raises
+        ------
+        TypeError, ValueError
+            If the callable asks for what there is not, or for another measure of one's own.
+
+        Examples
+        --------
+        The power with which a spring pulls its second end:
+
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("swing", gravity=(0, -9.81))
+        >>> mass = m.particle("mass", 1.0, at=(0.2, -0.1))
+        >>> spring = m.spring("spring", m.ground.point((0, 0)), mass, stiffness=30.0)
+        >>> m.measure("power", lambda F, v: -F * v, of={"F": spring.force, "v": spring.speed}, unit="W")
+        Measure('power')
+        >>> sol = zd.simulate(m, 1.0, step=0.01, events=zd.Event("power"))
+        >>> bool(abs(sol["power"] + sol["spring.force"] * sol["spring.speed"]).max() < 1e-12)
+        True
+        """
+        name = self._new_name(name, "measure")
+        law = self._law(f"measure {name!r}", value, of, reactions=True)
+        if len(law.names) > MAX_READS:
+            raise WrongValue(f"{law.what} must read at most {MAX_READS} measures, not {len(law.names)}", "out-of-range")
+        return Measure(self._add(OwnMeasure(name, law, checks.instance("unit", unit, str, "a string"))).name)
 
     # ---- reading arguments ----
 
@@ -240,6 +288,9 @@ class Elements:
         if owner not in known:
             raise WrongValue(f"{what} names {measure!r}, and there is no {owner!r} in {self.name!r}; "
                              f"{checks.closest(owner, known)}", "wrong-name")
+        if isinstance(known[owner], OwnMeasure):
+            raise WrongValue(f"{what} must read measures of elements, and {measure!r} is one of your own: repeat its formula",
+                             "wrong-measure")
 
     # ---- access ----
 

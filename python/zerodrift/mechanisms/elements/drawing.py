@@ -10,6 +10,7 @@ import numpy as np
 from . import columns
 from .bodies import Body, Particle, Point
 from .numbers import Numbers
+from .own_measures import OwnMeasure
 
 
 class Drawing(NamedTuple):
@@ -44,8 +45,13 @@ class Drawing(NamedTuple):
 
     def reactions(self) -> list[str]:
         """Reactions and accelerations that user functions read, by name."""
-        laws = (getattr(element, "law", None) for element in self.elements.values())
-        return list(dict.fromkeys(name for law in laws if law is not None for name in law.reactions.values()))
+        return list(dict.fromkeys(name for law in self.laws for name in law.reactions.values()))
+
+    @property
+    def laws(self) -> list[Any]:
+        """User functions of elements that act, which measures do not."""
+        laws = (getattr(each, "law", None) for each in self.elements.values() if not isinstance(each, OwnMeasure))
+        return [law for law in laws if law is not None]
 
     def parts(self) -> list[Body]:
         """Bodies with their own coordinates: without the ground and particles that are attached to others."""

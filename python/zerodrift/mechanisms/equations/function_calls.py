@@ -55,6 +55,10 @@ class ForceLaw(Call):
         return (node,)
 
 
+class Value(ForceLaw):
+    """Measure of one's own, which acts on nothing."""
+
+
 class Motion(Call):
     """Driving constraint x = f(t)."""
 
@@ -138,21 +142,26 @@ class Laws:
 
     def programs(self, sizes: Mapping[int, tuple[int, int]]) -> list[Any]:
         """Result of `function_programs.program` for each user function; `sizes` has the number of its marker quantities."""
-        if len(self._programs) != len(self.rows):
-            self._programs = [function_programs.program(row, sizes[i][0]) for i, row in enumerate(self.rows)]
-        return self._programs
+        if len(self._programs) < len(sizes):
+            self._programs = [function_programs.program(row, sizes[i][0]) for i, row in enumerate(self.rows[:len(sizes)])]
+        return self._programs[:len(sizes)]
 
     @property
     def tables(self) -> list[Any]:
         """Tables, in the order of the user functions that they are."""
         return list(dict.fromkeys(table for row in self.rows for table in row.law.tables))
 
+    @property
+    def acting(self) -> list[Any]:
+        """User functions of constraints and forces, which stand before those of measures."""
+        return [row for row in self.rows if not isinstance(row, Value)]
+
     def check_written(self) -> None:
-        """Check that code can be generated for all of them: they must not be callables."""
-        for row in self.rows:
+        """Check that code can be generated for all that act: they must not be callables."""
+        for row in self.acting:
             row.law.check_written()
 
     @property
     def know_time(self) -> bool:
-        """True if one of them depends on t."""
-        return any(row.law.depends_on_time for row in self.rows)
+        """True if one that acts depends on t."""
+        return any(row.law.depends_on_time for row in self.acting)

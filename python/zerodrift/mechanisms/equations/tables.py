@@ -12,7 +12,7 @@ import numpy as np
 from ..._private.gateway import Variable
 from ..._private.gateway.mechanisms import plane as entries
 from ..._private.gateway.mechanisms.core import MechanismCore
-from ..._private.gateway.mechanisms.element_tables import OutputSpec
+from ..._private.gateway.mechanisms.element_tables import OutputSpec, component_places
 from ..._private.gateway.mechanisms.plane import PlaneCore, Quantity
 from ..elements import columns
 from ..elements.bodies import Body, Particle, Point
@@ -21,6 +21,7 @@ from ..elements.forces import Actuator, Motor
 from ..elements.frames import turned
 from ..elements.joints import Coupling, Joint
 from ..elements.numbers import AS_GIVEN, Numbers
+from ..elements.own_measures import OwnMeasure
 from ..elements.space_joints import SpaceJoint
 from ..elements.table_forces import UNITS, TableForce, lengths, paths
 from . import function_calls, transmission
@@ -66,13 +67,15 @@ class Tables:
                 add(element)
         for element in sorted(drawing.of(TableForce), key=lambda element: element.row.number):
             self._table_force(element)
+        for measure in drawing.of(OwnMeasure):
+            self._own_measure(measure)
 
     def _masses(self) -> Any:
         return Inertias(self.drawing, self.numbers)
 
     def core(self, quantities: Sequence[Any] | None = None, observed: Sequence[OutputSpec] = ()) -> MechanismCore:
         """Core system of the tables, with the measures `observed` and their marker quantities; left out: without measures."""
-        laws = self.laws if self.laws.rows else None
+        laws = self.laws if self.laws.acting or any(each.kind == "formula" for each in observed) else None
         return self._kind_of_core()(self.written(quantities, observed), laws, laws_know_time=self.laws.know_time)
 
     def _kind_of_core(self) -> Any:
@@ -91,13 +94,8 @@ class Tables:
 
     def reactions(self, observed: Sequence[OutputSpec]) -> dict[str, tuple[int, int]]:
         """Index and component of the measures, if they are there, of reactions and accelerations that user functions read."""
-        dimension = self.drawing.dimension
-        found: dict[str, tuple[int, int]] = {}
         names = self.drawing.reactions()
-        for i, each in enumerate(observed if names else ()):
-            size = each.components(dimension)
-            parts = [each.name] if size == 1 else [f"{each.name}.{axis}" for axis in "xyz"[:size]]
-            found |= {name: (i, component) for component, name in enumerate(parts) if name in names}
+        found = component_places(observed if names else (), self.drawing.dimension)
         return {name: found[name] for name in names if name in found}
 
     def drawn(self) -> np.ndarray:
@@ -336,6 +334,12 @@ class Tables:
         axis = (1.0, 0.0) if element.axis is None else _pair(element.axis)
         return [Quantity(each.kind, first, second, point1, point2, axis, element.zero(each, self.numbers))
                 for each in element.quantities]
+
+    def _own_measure(self, measure: OwnMeasure) -> None:
+        reads = (*measure.law.measures, *measure.law.reactions.values())
+        picks = [(i, False) for i in range(len(reads))]
+        row = self.laws.add(function_calls.Value(measure.law, picks, self.parameters, 1))
+        self.observed.append(OutputSpec(measure.name, measure.unit, "formula", row, reads=reads))
 
     def _end(self, end: Body | Point) -> tuple[int, Any]:
         """Number of a body, and the point of it that a marker quantity belongs to."""

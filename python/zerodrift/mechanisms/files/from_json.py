@@ -219,6 +219,11 @@ def _torque(m: Any, name: str, *, body: Any, against: Any, value: Any) -> None:
     m.torque(name, body, value=value, of=of, against=against)
 
 
+def _measure(m: Any, name: str, *, law: Any, unit: Any) -> None:
+    value, of = law_and_of(law, "law")
+    m.measure(name, value, of=of, unit=unit)
+
+
 def _table_force(force: type[TableForce], dimension: int) -> Callable[..., None]:
     """Reader of a kind of force element whose method is made from the core's tables."""
     entry = force.entries[dimension]
@@ -255,6 +260,6 @@ MADE: dict[str, Callable[..., None]] = {
     "body": _body, "link": _link, "particle": _particle, "point": _point, "rolling": _rolling,
     "gear": _gear, "rack_pinion": _rack_pinion, "coupler": _coupler,
     "constraint": _constraint, "nonholonomic": _nonholonomic, "cam": _cam,
-    "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque, **_table_forces(2),
+    "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque, "measure": _measure, **_table_forces(2),
     **{kind: _by_row(joint) for kind, joint in PLANE.items()}}
 MADE_IN_SPACE = {**MADE, **IN_SPACE, **_table_forces(3)}

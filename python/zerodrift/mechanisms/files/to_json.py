@@ -128,6 +128,10 @@ def _torque(torque: Any, drawing: Drawing) -> dict[str, Any]:
     return {"body": torque.body.name, "against": torque.against.name, "value": law_to_json(torque.law)}
 
 
+def _measure(measure: Any, drawing: Drawing) -> dict[str, Any]:
+    return {"law": law_to_json(measure.law), "unit": measure.unit}
+
+
 def _table_force(force: TableForce, drawing: Drawing) -> dict[str, Any]:
     place: dict[str, Any] = sides(force, drawing) if force.joint is None else {"joint": force.joint.name}
     if force.axis is not None:
@@ -141,5 +145,5 @@ WRITTEN: dict[str, Callable[[Any, Drawing], dict[str, Any]]] = {
     **dict.fromkeys(JOINTS, _joint), **dict.fromkeys((kind for kind in FORCES if kind in ELEMENTS), _table_force),      # type: ignore[has-type]
     "body": _body, "link": _link, "particle": _particle, "point": _point, "gear": _linear,
     "rack_pinion": _linear, "coupler": _coupling, "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
-    "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque}
+    "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque, "measure": _measure}
 WRITTEN_IN_SPACE = WRITTEN | dict.fromkeys(FORCES, _table_force) | IN_SPACE

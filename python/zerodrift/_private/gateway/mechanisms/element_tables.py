@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple
 
+from ....errors import WrongValue
+from ... import checks
 from ...core import ffi, lib
 from ..base import Card, card_of, text
 
@@ -20,12 +22,13 @@ else:
 Component = TypeVar("Component")
 Triple = tuple[Component, Component, Component]
 ZERO: Any = 0.0
+MAX_READS = lib.ZD_MAX_READS    # components that a formula reads, at most
 FORCE_KINDS = {"spring": lib.ZD_FORCE_SPRING, "constant": lib.ZD_FORCE_CONSTANT, "law": lib.ZD_FORCE_LAW}
 OUTPUT_KINDS = {
     "values": lib.ZD_VALUES, "rates": lib.ZD_RATES, "accelerations": lib.ZD_ACCELERATIONS, "joint force": lib.ZD_JOINT_FORCE,
     "joint torque": lib.ZD_JOINT_TORQUE, "joint tension": lib.ZD_JOINT_TENSION, "force value": lib.ZD_FORCE_VALUE,
     "force power": lib.ZD_FORCE_POWER, "drive": lib.ZD_DRIVE_VALUE, "drive power": lib.ZD_DRIVE_POWER,
-    "force sum": lib.ZD_FORCE_SUM, "torque sum": lib.ZD_TORQUE_SUM}
+    "force sum": lib.ZD_FORCE_SUM, "torque sum": lib.ZD_TORQUE_SUM, "formula": lib.ZD_FORMULA}
 
 
 def three(components: Iterable[Component]) -> Triple[Component]:
@@ -89,10 +92,11 @@ class OutputSpec(NamedTuple):
     name: str
     unit: str
     kind: str
-    first: int                  # index of the first marker quantity, the joint, generalized force or relation
+    first: int                  # index of the first marker quantity, the joint, generalized force, relation or user function
     size: int = 1               # number of marker quantities, or of generalized forces in a sum
     scale: float = 1.0
     term: int = 0               # of drives: along which of the relation's marker quantities
+    reads: Sequence[str] = ()   # scalar measures and components that a formula reads
 
     def components(self, dimension: int) -> int:
         """Number of components in the plane or in space."""
@@ -101,6 +105,16 @@ class OutputSpec(NamedTuple):
         if self.kind in ("joint force", "force sum"):
             return dimension
         return 2 * dimension - 3 if self.kind in ("joint torque", "torque sum") else 1
+
+
+def component_places(measures: Iterable[OutputSpec], dimension: int) -> dict[str, tuple[int, int]]:
+    """Index and component of each scalar measure, and of each component of a vector, by name."""
+    found: dict[str, tuple[int, int]] = {}
+    for i, each in enumerate(measures):
+        size = each.components(dimension)
+        parts = [each.name] if size == 1 else [f"{each.name}.{axis}" for axis in "xyz"[:size]]
+        found |= {name: (i, component) for component, name in enumerate(parts)}
+    return found
 
 
 class Row(NamedTuple):
@@ -120,6 +134,7 @@ def rows_of(rows: Any, m: int) -> tuple[Row, ...]:
 def law_sizes(tables: Any) -> dict[int, tuple[int, int]]:
     """Number of marker quantities that each user function takes, and number of values that it returns, by its index."""
     sizes = {force.law: (len(force.inputs) + len(force.reads), 1) for force in tables.forces if force.law >= 0}
+    sizes |= {each.first: (len(each.reads), 1) for each in tables.measures if each.kind == "formula"}
     return sizes | {row.law: (len(row.quantities), len(row.quantities) + 3) for row in tables.relations if row.law >= 0}
 
 
@@ -139,6 +154,13 @@ def _reading(tables: Any) -> tuple[Any, Any]:
     return reading, (reading, reactions, reads, names, texts)
 
 
+def _place(measure: str, read: str, places: dict[str, tuple[int, int]]) -> tuple[int, float]:
+    if read not in places:
+        raise WrongValue(f"measure {measure!r} must be of scalar measures, and {read!r} is none; {checks.closest(read, places)}",
+                         "wrong-measure")
+    return places[read]
+
+
 def written_elements(tables: Any, has_laws: bool, laws_know_time: bool) -> tuple[dict[str, Any], Any]:
     """Fields of a `zd_elements`, and the words that must live as long as the objects made from it."""
     terms: list[tuple[int, float]] = []
@@ -152,8 +174,12 @@ def written_elements(tables: Any, has_laws: bool, laws_know_time: bool) -> tuple
         terms += ((quantity, 1.0) for quantity in force.inputs)
     units = {unit: ffi.new("char[]", unit.encode()) for unit in {row.unit for row in tables.measures}}
     names = [ffi.new("char[]", row.name.encode()) for row in tables.measures]
-    measures = [(name, units[row.unit], OUTPUT_KINDS[row.kind], *row[3:])
-                for name, row in zip(names, tables.measures, strict=True)]
+    measures, places = [], component_places(tables.measures if any(each.reads for each in tables.measures) else (),
+                                            len(tables.gravity))
+    for name, each in zip(names, tables.measures, strict=True):
+        reads = (len(each.reads), each.scale, len(terms)) if each.kind == "formula" else each[4:7]
+        measures.append((name, units[each.unit], OUTPUT_KINDS[each.kind], each.first, *reads))
+        terms += (_place(each.name, read, places) for read in each.reads)
     reading, kept = _reading(tables)
     elements = {
         "reading": reading, "terms": len(terms), "relations": len(relations), "forces": len(forces), "measures": len(measures),

@@ -39,7 +39,7 @@ def bound(core: Any, names: Sequence[str]) -> Bound:
 
 
 def _of_laws(laws: Any, numbers: Sequence[Any], names: Sequence[str]) -> list[Place]:
-    rows = [(row, memory) for row, memory in zip(laws.rows, numbers, strict=True) if memory is not None]
+    rows = [(row, memory) for row, memory in zip(laws.rows, numbers, strict=False) if memory is not None]
     return list({row.law.input: Place(row.law.input, row.law.is_speed, memory) for row, memory in rows
                  if row.law.input in names}.values())
 
