@@ -25,6 +25,14 @@ static int take_step(zd_run *run)
     return zd_watch_after(&run->watch, zd_step_loop_is_corrected(&run->loop), &run->loop.end);
 }
 
+/* The next step, after a break of the system at which the last one has ended; none if that is the end of the run. */
+static int make_step(zd_run *run, int plain)
+{
+    zd_step_loop *loop = &run->loop;
+    const int status = zd_pass_break(loop);
+    return status || run->stepper.t == loop->end ? status : plain ? zd_step(loop) : take_step(run);
+}
+
 static int save(zd_run *run, zd_record *record)
 {
     const zd_settings *settings = &run->settings;
@@ -60,7 +68,7 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds)
             if (zd_seconds_now() >= deadline) return ZD_PAUSED;
             clock_step += CLOCK_EVERY;
         }
-        status = plain ? zd_step(&run->loop) : take_step(run);
+        status = make_step(run, plain);
         if (!status) status = zd_point_check_domain(run->motion.point, errors * run->settings.rtol, errors * run->settings.atol);
         if (!status && record) status = save(run, record);
     }

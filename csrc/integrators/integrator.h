@@ -26,6 +26,7 @@ typedef struct zd_integrator {
     int (*error)(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm,
                  double *lambda_h);
     double (*limit_step)(const void *self, double h);  /* best size of the next step, at most h, for the iteration; NULL: h */
+    void (*forget)(void *self);     /* the rate has jumped since the last step, which tells nothing of the next; NULL: no step does */
     /* Dense output of the step just made from (t, y0) to (t + h, y1): prepares the polynomial; evaluates it at a fraction of the step.
      * NULL: the method has none, and shorter steps are made instead. */
     int (*prepare_dense)(void *self, const zd_rate *rate, double t, double h, const double *y0, const double *y1);

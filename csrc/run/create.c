@@ -86,7 +86,7 @@ static zd_run *create_run(zd_arena *arena, const zd_system *system, const zd_set
         .stepper = &run->stepper,
         .safeguards = &run->safeguards,
         .sizes = settings->steps == ZD_FIXED_STEPS ? &zd_fixed_sizes : &zd_adaptive_sizes,
-        .end = settings->t1, .limit = INFINITY, .t_begin = settings->t0,
+        .end = settings->t1, .limit = INFINITY, .before_break = INFINITY, .t_begin = settings->t0,
     };
     if (zd_is_adaptive(&run->loop)) run->loop.control = zd_adaptive_create(arena, &run->stepper, settings->t0);
     else run->loop.undivided = zd_state_create(arena, motion);

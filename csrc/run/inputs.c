@@ -71,19 +71,6 @@ static void write(const zd_run *run, double h)
     zd_inputs_derive(inputs);
 }
 
-/* Recomputes what is known at the present point and depends on inputs. */
-static int renew(zd_run *run)
-{
-    zd_motion *motion = &run->motion;
-    zd_guard *guard = &run->safeguards.guard;
-    const int was_accelerated = motion->point->known & ZD_ACCELERATED;
-    motion->point->known &= motion->point->constant;
-    if (!guard->watches_step && !was_accelerated) return ZD_DONE;
-    const int status = zd_motion_accelerate(motion);
-    if (!status && guard->watches_step) zd_guard_watch_next(guard);
-    return status;
-}
-
 int zd_inputs_read(zd_run *run)
 {
     const zd_inputs *inputs = run->settings.inputs;
@@ -183,7 +170,7 @@ static int begin(zd_run *run)
     write(run, held->is_new && !inputs->jumps ? run->settings.step : 0);
     if (!held->is_new) held->has_ramp = 0;
     held->is_new = 0;
-    return jumps ? zd_jump_finish(run) : renew(run);
+    return jumps ? zd_jump_finish(run) : zd_renew(&run->loop);
 }
 
 int zd_inputs_begin_step(zd_run *run)
@@ -195,5 +182,5 @@ int zd_inputs_begin_step(zd_run *run)
     const int is_written = follow(run);
     run->loop.limit = next_end(run);
     if (is_written) held->is_new = 0;
-    return is_written ? renew(run) : ZD_DONE;
+    return is_written ? zd_renew(&run->loop) : ZD_DONE;
 }

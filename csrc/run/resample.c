@@ -47,7 +47,9 @@ static int place(zd_resample *self, int64_t sample)
 static int make_step(zd_resample *self, int64_t sample)
 {
     zd_step_loop *loop = &self->run->loop;
-    const double t = time_of(self->saved, sample), next = time_of(self->saved, sample + 1);
+    const int status = zd_pass_break(loop);
+    const double t = self->run->stepper.t, next = time_of(self->saved, sample + 1);
+    if (status || t == next) return status;
     const int is_last = sample + 2 == self->saved->samples;
     return zd_step_attempt(loop, &(zd_attempt){
         .kind = ZD_REPEATED_STEP, .forced = is_last, .step = sample + 1,
@@ -159,5 +161,6 @@ int zd_resample_move(zd_resample *self, double t)
     }
     self->has_polynomial = 0;
     status = begin(self, sample, self->is_general);
+    if (!status) status = zd_pass_break(&self->run->loop);
     return status ? status : zd_substep(&self->run->loop, t);
 }

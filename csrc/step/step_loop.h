@@ -104,6 +104,7 @@ struct zd_step_loop {
     const zd_step_sizes *sizes;     /* fixed or adaptive */
     double end;             /* s: t1 of the settings, the time of a terminal event, or that to which an open run advances; INFINITY: none */
     double limit;           /* s: time that the current step does not pass, the end of an input's ramp; INFINITY: none */
+    double before_break;    /* s: the same, shortly before the next break of the system */
     int64_t step;           /* number of the current step, from 1 */
     int64_t steps;          /* number of the fixed step that ends at `end`; 0: none */
     double t_begin;         /* s: time from which fixed steps are counted */
@@ -122,7 +123,11 @@ static inline int zd_step_loop_is_due(const zd_step_loop *loop, int64_t every)
 }
 
 /* s: latest end of the current step */
-static inline double zd_step_loop_latest(const zd_step_loop *loop) { return loop->limit < loop->end ? loop->limit : loop->end; }
+static inline double zd_step_loop_latest(const zd_step_loop *loop)
+{
+    const double limit = loop->before_break < loop->limit ? loop->before_break : loop->limit;
+    return limit < loop->end ? limit : loop->end;
+}
 
 /* True if all enabled corrections were applied at the end of the step. */
 static inline int zd_step_loop_is_corrected(const zd_step_loop *loop)
@@ -137,6 +142,11 @@ zd_control zd_adaptive_create(zd_arena *arena, const zd_stepper *stepper, double
 int zd_adaptive_start(zd_step_loop *loop, double *work);
 /* Passes the approximate error scale of the next step to an integrator that needs it. */
 void zd_adaptive_set_scale(zd_step_loop *loop);
+
+/* Before an adaptive step: moves on to a break of the system that is next to the time, but not past the end, and finds the next one. */
+int zd_pass_break(zd_step_loop *loop);
+/* Recomputes what is known at the point, after a change of what is not its state: of time by rounding, of inputs. */
+int zd_renew(zd_step_loop *loop);
 
 /* Passage through a bifurcation within a step. */
 

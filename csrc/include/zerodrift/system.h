@@ -32,7 +32,7 @@
 #include "terms.h"
 
 /* Changes with any declaration here and in these headers that compiled code depends on. */
-enum { ZD_INTERFACE_VERSION = 7 };
+enum { ZD_INTERFACE_VERSION = 8 };
 
 /* ---- measures, inputs, groups ---- */
 
@@ -132,6 +132,18 @@ typedef struct zd_group {
     double friction[2];     /* ZD_FRICTION: static and sliding; coefficients, or with a fixed bound in N or N m */
 } zd_group;
 
+/* Times at which user functions of t alone jump or bend, at which adaptive steps end: those of a group repeat with its period. */
+typedef struct zd_break_group {
+    double period;          /* s; 0: they do not repeat */
+    int count;
+    const double *t;        /* (count,) s, increasing; less than a period after the first */
+} zd_break_group;
+
+typedef struct zd_breaks {
+    int groups;
+    const zd_break_group *group;    /* (groups,) */
+} zd_breaks;
+
 /* ---- a system; optional members that are not provided are NULL ---- */
 
 typedef struct zd_system {
@@ -181,6 +193,7 @@ typedef struct zd_system {
     /* Checks that user functions are defined at a state that may be off by atol + rtol |x| of each quantity x; evaluate() may be called
      * beyond, in trial stages. `scratch` is that of evaluate(). Returns as evaluate() does. NULL: they are defined wherever it succeeds. */
     int (*check_domain)(const void *data, double rtol, double atol, double t, const double *p, const double *v, double *scratch);
+    const zd_breaks *breaks;        /* times at which user functions jump; NULL: none are known */
 } zd_system;
 
 /* ---- a kind of system: with parameters, names, a start and a drawing ---- */

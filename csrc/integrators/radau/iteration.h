@@ -134,7 +134,7 @@ typedef struct zd_radau_newton {
     zd_radau_stages stages;
     int by_stages;          /* true if each stage has its own J */
     double *seen;           /* (size,): largest size of each entry so far; scale of the differences */
-    double contraction;     /* ratio of the last change to the one before */
+    double contraction;     /* largest ratio of a change to the one before, of this iteration or an earlier one */
     double norm_before;     /* norm of the previous change in this step; 0: none */
     int iterations;
 } zd_radau_newton;

@@ -132,8 +132,8 @@ static int residual(void *context, double *size)
     see_sizes(self);
     const double norm = measure(self, self->change), before = self->norm_before;
     const int left = WORTHWHILE - ++self->iterations;
-    if (before > 0) self->contraction = norm / before;
-    const double share = self->contraction;
+    const double share = before > 0 ? norm / before : self->contraction;
+    if (before > 0) self->contraction = fmax(share, self->iterations > 2 ? self->contraction : 0);
     self->norm_before = norm;
     *size = norm == 0 ? 0 : share < 1 ? share / (1 - share) * norm : norm;
     if (before > 0 && share > STALLED) status = test_for_rounding(self, norm, &is_rounding);

@@ -208,6 +208,13 @@ static int error(void *memory, const zd_rate *rate, double t1, double h, const d
     return ZD_DONE;
 }
 
+static void forget(void *memory)
+{
+    radau *self = memory;
+    self->newton.t0 = NAN;
+    self->newton.matrices.has_J = 0;
+}
+
 /* Largest step for which the iteration is expected to converge. Its contraction is not known before, as J changes within a step, so bounds
  * are learned from steps that failed. */
 static double limit_step(const void *memory, double h)
@@ -253,6 +260,7 @@ const zd_integrator zd_radau = {
     .set_scale = set_scale,
     .error = error,
     .limit_step = limit_step,
+    .forget = forget,
     .prepare_dense = prepare_dense,
     .dense_output = dense_output,
 };

@@ -20,6 +20,7 @@ from ..systems import autodiff
 from . import splines
 
 END_ROUNDING = 1e-9     # of the table's length: rounding beyond its ends that is accepted; of the largest value or slope: no jump
+BEND = 1e-3             # of the largest difference of values: change of the third derivative times the cube of a piece's length
 KINDS, BEYOND = ("smooth", "linear", "steps"), ("error", "hold", "line", "period")
 ERROR, CONTINUES, REPEATS = programs.BEYOND
 
@@ -202,8 +203,8 @@ class Spline:
         """Abscissas of its knots."""
         return self.knots[:, 0]
 
-    def jump(self, derivatives: int) -> float | None:
-        """The first argument where its value or, with 1, its slope jumps; None: nowhere."""
+    def _jumps(self, derivatives: int) -> np.ndarray:
+        """True for each point after the first where its value or, with 1, its slope jumps."""
         x, (cubic, square, slope, value) = self.knots[:, 0], self.knots[:-1, 1:].T
         h = np.diff(x)
         ends = np.array([((cubic * h + square) * h + slope) * h + value, (3 * cubic * h + 2 * square) * h + slope])
@@ -211,8 +212,19 @@ class Spline:
         if self.knots[-1, 1] != REPEATS:
             starts[:, -1] = ends[:, -1]
         sizes = np.abs(np.array([starts, ends, [value, (ends[0] - value) / h]])).max(axis=(0, 2))
-        found = np.flatnonzero((np.abs(starts - ends) > END_ROUNDING * sizes[:, None])[:derivatives + 1].any(axis=0))
-        return float(x[found[0] + 1]) if found.size else None
+        return (np.abs(starts - ends) > END_ROUNDING * sizes[:, None])[:derivatives + 1].any(axis=0)
+
+    def jump(self, derivatives: int) -> float | None:
+        """The first argument where its value or, with 1, its slope jumps; None: nowhere."""
+        found = np.flatnonzero(self._jumps(derivatives))
+        return float(self.x[found[0] + 1]) if found.size else None
+
+    def breaks(self) -> tuple[np.ndarray, float]:
+        """Arguments where it jumps, or bends by more than `BEND` within a piece, and its period, 0 without one."""
+        x, cubic, value, repeats = self.x, self.knots[:-1, 1], self.knots[:-1, 4], self.knots[-1, 1] == REPEATS
+        h, following = np.diff(x), np.append(cubic[1:], cubic[0] if repeats else cubic[-1])
+        bends = np.abs(following - cubic) * np.maximum(h, np.append(h[1:], h[0])) ** 3 > BEND * np.ptp(value)
+        return x[1:][self._jumps(1) | bends], float(x[-1] - x[0]) if repeats else 0.0
 
     @functools.cached_property
     def _spline(self) -> Any:

@@ -54,7 +54,7 @@ def simulate(
         As p0, a result of `equilibrium` is accepted, too.
     step : float, optional
         Size of fixed steps in s. If the span is not a whole number of steps, the last one is shorter. Without it, steps are
-        adaptive: the integrator chooses them by its error estimate with `rtol` and `atol`.
+        adaptive: the integrator chooses them by its error estimate with `rtol` and `atol`, and they end where laws of t jump.
     t_eval : array_like (k,), optional
         Output times in s, increasing. Left out: the times of the steps; adaptive steps are long, and maxima of forces may lie
         between them. With adaptive steps, values at output times are from the method's dense output where it has one, otherwise

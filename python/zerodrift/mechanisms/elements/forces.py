@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple, cast
 
 import numpy as np
 
@@ -171,8 +171,8 @@ class Force(TableForce):
     @property
     def parts(self) -> tuple[Force, ...]:
         """The force, and the opposite one at a point of another body."""
-        point = self.against
-        return (self, Force(self.name, point, -self.along, self.frame, self.law)) if isinstance(point, Point) else (self,)
+        point, law = self.against, cast(Law, self.law)
+        return (self, Force(self.name, point, -self.along, self.frame, law)) if isinstance(point, Point) else (self,)
 
     def __repr__(self) -> str:
         return f"<force {self.name} at {self.point.body.name}>"

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..._private import checks
 from ...errors import WrongType, WrongValue, sentence
-from ...laws import recording
+from ...laws import breaks, recording
 from ...laws.formula import Formula, of_expression
 from ...laws.table import Spline, recognised
 from ...systems import autodiff
@@ -180,6 +180,15 @@ class Law:
                                  f"{each.argument} = {x:g}: "
                                  'give kind="smooth", with beyond="error", "line" or "period"', "user-function")
 
+    def breaks(self, parameters: Mapping[str, float]) -> Iterable[breaks.Break]:
+        """Times at which it jumps or bends, if it depends on t alone there."""
+        if self.depends_on_time and self.formula is not None:
+            yield from breaks.of_formula(self.formula, parameters)
+        elif self.depends_on_time:
+            for each in self.tables:
+                if each.argument == "t":
+                    yield from breaks.of_spline(each)
+
     @property
     def has_nodes(self) -> bool:
         """True if `written` gives its node: the computation of what is called is known to Python only."""
@@ -242,6 +251,7 @@ class InputLaw:
     tables: Sequence[Spline] = ()
     constant = formula = None
     is_plain, has_nodes, why_called = True, True, ""
+    breaks = staticmethod(lambda parameters: ())
 
     def __init__(self, name: str, initial: float, *, is_speed: bool) -> None:
         self.what, self.input, self.initial, self.is_speed = f"input {name!r}", name, initial, is_speed

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from ...errors import WrongValue
+from ...laws import breaks
 from ...systems.autodiff import Jet
 from ..elements.user_functions import InputLaw, Law
 from . import function_programs
@@ -41,7 +43,7 @@ class ForceLaw(Call):
     """Generalized force: a force or torque, times `sign`."""
 
     def __init__(self, law: Law | InputLaw, picks: Sequence[tuple[int, bool]], parameters: Mapping[str, float],
-                 sign: int) -> None:
+                 sign: int = 1) -> None:
         super().__init__(law, picks, parameters)
         self.sign = sign
 
@@ -155,6 +157,11 @@ class Laws:
     def acting(self) -> list[Any]:
         """User functions of constraints and forces, which stand before those of measures."""
         return [row for row in self.rows if not isinstance(row, Value)]
+
+    @functools.cached_property
+    def breaks(self) -> list[breaks.Break]:
+        """Times at which adaptive steps end."""
+        return sorted({each for row in self.acting for each in row.law.breaks(row.parameters)})
 
     def check_written(self) -> None:
         """Check that code can be generated for all that act: they must not be callables."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -65,7 +66,8 @@ def report(drawing: Drawing) -> str:
 
 def _arm(force: Force) -> float:
     """Distance in m between the lines along which a force and its opposite act, as drawn."""
-    apart, along = force.point.drawn - force.against.drawn, force.frame.pose.direction(force.along)
+    against: Any = force.against
+    apart, along = force.point.drawn - against.drawn, force.frame.pose.direction(force.along)
     return float(np.linalg.norm(apart - apart @ along * along))
 
 

@@ -68,6 +68,18 @@ def table_of_programs(law: Law, sizes: dict[int, tuple[int, int]]) -> Any:
     return ffi.new("zd_law_program[]", rows), (kept, found)
 
 
+def breaks_of(law: Law | None) -> Any:
+    """The core's breaks of user functions, NULL if there are none, and the memory to keep with it."""
+    found = getattr(law, "breaks", ())
+    times = [np.array(each, dtype=float) for _, each in found]
+    if not times:
+        return ffi.NULL, None
+    rows = [(period, t.size, doubles(t, t.size)) for (period, _), t in zip(found, times, strict=True)]
+    groups = ffi.new("zd_break_group[]", rows)
+    made = ffi.new("zd_breaks *", (len(times), groups))
+    return made, (made, groups, times)
+
+
 @ffi.def_extern(error=lib.ZD_CALLBACK)
 def zd_law_in_python(owner: Any, *arguments: Any) -> int:
     return ffi.from_handle(owner).evaluate(*arguments)

@@ -1,0 +1,56 @@
+/* Breaks: a step ends shortly before one, and the next begins shortly after it with the same state, so that all stages of each are on one
+ * side, however their times are rounded. Where a step begins follows from the time alone, for runs that continue and steps that are repeated.
+ */
+#include "step_loop.h"
+
+#include <math.h>
+
+#include "../step_limits.h"
+
+/* The first time of a group after t */
+static double next_of(const zd_break_group *group, double t)
+{
+    const double first = group->t[0], turns = group->period > 0 ? floor((t - first) / group->period) : 0, shift = turns * group->period;
+    int low = 0, high = group->count;
+    while (low < high) {
+        const int middle = low + (high - low) / 2;
+        if (group->t[middle] + shift > t) high = middle;
+        else low = middle + 1;
+    }
+    return low < group->count ? group->t[low] + shift : group->period > 0 ? first + (turns + 1) * group->period : INFINITY;
+}
+
+static double next_break(const zd_breaks *breaks, double t)
+{
+    double next = INFINITY;
+    for (int i = 0; i < breaks->groups; i++) next = fmin(next, next_of(&breaks->group[i], t));
+    return next;
+}
+
+int zd_pass_break(zd_step_loop *loop)
+{
+    const zd_breaks *breaks = loop->motion->system.breaks;
+    const zd_settings *settings = loop->settings;
+    zd_stepper *stepper = loop->stepper;
+    if (!breaks || !zd_is_adaptive(loop)) return ZD_DONE;
+    const double t = stepper->t, largest = fmax(fabs(settings->t0), fmax(fabs(t), settings->is_open ? 0 : fabs(settings->t1)));
+    const double rounding = ZD_TIME_RESOLUTION * largest, next = next_break(breaks, t);
+    if (next - t <= 2 * rounding) stepper->t = fmin(next + rounding, loop->end);
+    loop->before_break = next_break(breaks, stepper->t + 4 * rounding) - rounding;
+    if (stepper->t == t) return ZD_DONE;
+    loop->motion->point->t = stepper->t;
+    return zd_renew(loop);
+}
+
+int zd_renew(zd_step_loop *loop)
+{
+    zd_motion *motion = loop->motion;
+    zd_guard *guard = &loop->safeguards->guard;
+    const int was_accelerated = motion->point->known & ZD_ACCELERATED;
+    if (loop->stepper->integrator->forget) loop->stepper->integrator->forget(loop->stepper->memory);
+    motion->point->known &= motion->point->constant;
+    if (!guard->watches_step && !was_accelerated) return ZD_DONE;
+    const int status = zd_motion_accelerate(motion);
+    if (!status && guard->watches_step) zd_guard_watch_next(guard);
+    return status;
+}
