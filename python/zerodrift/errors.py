@@ -342,7 +342,7 @@ class StateWarning(_Coded, UserWarning):
 
 
 class CostWarning(_Coded, UserWarning):
-    """A run would take much time or memory, and could take less; issued before it starts."""
+    """A run would take much time or memory, and could take less; or functions that Python calls have taken 3 s."""
 
     code = "cost"
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 import time
+import warnings
 from collections.abc import Callable, Sequence
 from typing import Any, Literal, Unpack
 
 from .._private import checks, gateway
 from .._private.types import ArrayLike, Events, Inputs, Measures, PathLike, SimulateSettings, StateLike, SystemLike
+from ..errors import CostWarning
 from .arguments.inputs import Speeds
 from .arguments.settings import known, with_names
 from .open.beginning import prepared
@@ -18,6 +21,9 @@ from .open.run import Run
 from .open.stepping import SLICE
 from .samples import recording
 from .samples.solution import Solution
+from .samples.summary import calls_in_words
+
+LONG_CALLS = 3.0              # s in user functions that are called, above which a run warns once
 
 
 @with_names(known)
@@ -172,7 +178,8 @@ def simulate(
     -----
     CostWarning
         Before the run: if the record takes more than half of the free memory, or if a mechanism with many joint coordinates
-        would take some ten seconds, and less than a tenth of that in absolute coordinates.
+        would take some ten seconds, and less than a tenth of that in absolute coordinates. During the run: if functions that
+        are called, as they cannot be recorded, have taken 3 s.
     DrawingWarning
         Before the run: if a mechanism starts from its drawing, and a joint is drawn open by more than a hundredth of its size.
         Not for a sketch, in which a dimension of a loop with that joint is given, such as ``length=`` of a link or a radius, or
@@ -225,7 +232,7 @@ def simulate(
 def _drive(run: gateway.Run, record: gateway.Record, progress: Any, keyboard: Keyboard, controlled: Run | None) -> Outcome:
     """Run the core in slices of time, and to the instants of controllers, until it ends, fails or is interrupted."""
     show, close = progress_of(progress)
-    start, status, error = time.perf_counter(), gateway.PAUSED, None
+    start, status, error, limit = time.perf_counter(), gateway.PAUSED, None, LONG_CALLS
     try:
         while status in (gateway.PAUSED, gateway.FULL):
             if keyboard.pressed:
@@ -241,6 +248,10 @@ def _drive(run: gateway.Run, record: gateway.Record, progress: Any, keyboard: Ke
                 controlled._note_jump()
             if controlled and status == gateway.DONE and controlled._goes_on():
                 status = gateway.PAUSED
+            if sum(run.calls.values()) > limit:
+                limit = math.inf
+                warnings.warn(f"Python is called for {calls_in_words(run.calls)}, about a hundred times as slow as a function "
+                              "that can be recorded: print(mechanism) says why it cannot", CostWarning, stacklevel=3)
             _show(show, run.progress)
     except BaseException as caught:
         status, error = gateway.INTERRUPTED, caught

@@ -102,11 +102,12 @@ class Results(NamedTuple):
     energy_error: float     # J: maximum |Psi_E| over the samples
     redundant: list[int]    # constraints that are redundant in all positions
     phi_sizes: bytes     # of its rows (mh,), as doubles
+    calls: Mapping[str, float]      # s in each user function that was called
 
     def as_stats(self) -> dict[str, Any]:
         """Entries of `Solution.stats`."""
         return {**self.statistics._asdict(), "omega_h": self.omega_h, "largest_kinetic": self.largest_kinetic,
-                "redundant": self.redundant}
+                "redundant": self.redundant, "calls": self.calls}
 
     @property
     def sizes(self) -> np.ndarray:
@@ -214,9 +215,14 @@ class Run:
                 for at, size in zip((lib.zd_run_p(run), lib.zd_run_v(run)), sizes, strict=True))
         return lib.zd_run_time(run), p, v
 
+    @property
+    def calls(self) -> Mapping[str, float]:
+        """Time spent so far in user functions that were called, in s, by what they are."""
+        return getattr(self._core, "calls", {})
+
     def results(self) -> Results:
         """Results of the run so far, without its samples."""
         run, size = self._run, 8 * self._core.mh
         statistics = Statistics._make(_unpacked(ffi.buffer(lib.zd_run_statistics(run))))
         return Results(statistics, lib.zd_run_omega_h(run), lib.zd_run_kinetic(run), lib.zd_run_energy_error(run),
-                       self._redundant(statistics.rank), ffi.buffer(lib.zd_run_sizes(run), size)[:] if size else b"")
+                       self._redundant(statistics.rank), ffi.buffer(lib.zd_run_sizes(run), size)[:] if size else b"", self.calls)

@@ -69,6 +69,13 @@ class Law:
         self.depends_on_time = "t" in self._names
         self.record(parameters)
 
+    @property
+    def kind(self) -> str:
+        """"graph", "table", or "call" with the reason; empty for a number."""
+        if self.constant is not None:
+            return ""
+        return f"call: {self.why_called}" if self.why_called else "graph" if self.formula is not None else "table"
+
     def call(self, why: str) -> None:
         """Keep a function as a call, though it could be recorded."""
         self.formula, self.why_called = None, why
@@ -250,7 +257,7 @@ class InputLaw:
     names: tuple[str, ...] = ()
     tables: Sequence[Spline] = ()
     constant = formula = None
-    is_plain, has_nodes, why_called = True, True, ""
+    is_plain, has_nodes, why_called, kind = True, True, "", ""
     breaks = staticmethod(lambda parameters: ())
 
     def __init__(self, name: str, initial: float, *, is_speed: bool) -> None:

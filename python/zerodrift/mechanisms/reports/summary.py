@@ -55,10 +55,9 @@ def report(drawing: Drawing) -> str:
               for force in drawing.of(Force) if isinstance(force.against, Point)]
     if drawing.parameters:
         lines.append(f" parameters: {_listed([f'{name} = {value:g}' for name, value in drawing.parameters.items()])}")
-    called = [f"{law.what} ({law.why_called})" for each in drawing.elements.values()
-              if (law := getattr(each, "law", None)) and law.why_called]
-    if called:
-        lines.append(f" called in Python: {_listed(called)}")
+    laws = [f"{law.what} ({law.kind})" for each in drawing.elements.values() if (law := getattr(each, "law", None)) and law.kind]
+    if laws:
+        lines.append(f" laws: {_listed(laws)}")
     found = cost.cost(tables_of(drawing, AS_GIVEN, in_tree=True), exact=True)
     lines.append(f" a simulation takes {found.taken} coordinates: {found.in_words}")
     return "\n".join(lines)

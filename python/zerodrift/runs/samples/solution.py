@@ -75,6 +75,7 @@ class Solution(Named):
           `smallest_pivot_row`: the constraint. Near a bifurcation it is small, and accelerations lose digits.
         * `matrix_path_reason`: reason why no step was evaluated in closed form; None if some were, or if systems of this kind
           have no closed form. `interpreted`: what compiling the equations would save; None if they are, or cannot be.
+          `calls`: s in each user function that was called, as it could not be recorded.
     status : int
         0: done, positive: ended early, negative: failed. All samples are valid in each case.
     success : bool

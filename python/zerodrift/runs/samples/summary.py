@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -30,6 +30,8 @@ def summary(solution: Any) -> str:
             f"  cost        {_duration(stats['seconds'])}, {steps} steps of {_duration(stats['seconds'] / steps)}, "
             f"{stats['evaluations'] / steps:.3g} evaluations and {stats['factorizations'] / steps:.3g} factorizations each")
     lines += _evaluation(stats)
+    if calls := stats.get("calls"):
+        lines.append(f"  in Python   {sum(calls.values()) / stats['seconds']:.0%} of the time: {calls_in_words(calls)}")
     if solution.system.m:
         lines.append(f"  violation   max |Phi| = {_largest(solution.position_violation)}, "
                      f"max |Psi| = {_largest(solution.velocity_violation)}")
@@ -56,6 +58,13 @@ def _evaluation(stats: dict[str, Any]) -> list[str]:
         return ["  evaluation  closed form" + (" by tables" if more else "") +
                 (f" ({left} of {stats['steps']} steps by matrices)" if left else "") + more]
     return [f"  evaluation  matrices, no closed form: {reason}{more}"] if reason else []
+
+
+def calls_in_words(calls: Mapping[str, float]) -> str:
+    """User functions that were called, with their time, the slowest first."""
+    slowest = sorted(calls.items(), key=lambda each: -each[1])
+    more = len(slowest) - MAX_NAMED
+    return ", ".join([f"{what} ({_duration(seconds)})" for what, seconds in slowest[:MAX_NAMED]] + [f"{more} more"] * (more > 0))
 
 
 def _duration(seconds: float) -> str:

@@ -145,6 +145,11 @@ class MechanismCore(CoreSystem):
         return self._owner.error if self._owner else None
 
     @property
+    def calls(self) -> dict[str, float]:
+        """Time spent in user functions that were called, in s, by what they are."""
+        return self._owner.calls if self._owner else {}
+
+    @property
     def refusal(self) -> BaseException | None:
         """Error for the last values of a user function that were not finite, which shorter steps may have avoided since."""
         return self._owner.refusal if self._owner else None

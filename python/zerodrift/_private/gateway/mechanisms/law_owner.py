@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -23,12 +24,14 @@ class LawOwner:
         Raised by a user function, or else `refusal`.
     refusal : WrongValue or None
         For the last values that were not finite, which shorter steps may have avoided since.
+    seconds : dict
+        Time spent in each user function that was called, in s, by its number.
     """
 
     def __init__(self, law: Law, sizes: dict[int, tuple[int, int]]) -> None:
         self._error: BaseException | None = None
         self.refusal: WrongValue | None = None
-        self._law, self._sizes = law, sizes
+        self._law, self._sizes, self.seconds = law, sizes, dict[int, float]()
 
     @property
     def error(self) -> BaseException | None:
@@ -36,6 +39,7 @@ class LawOwner:
 
     def evaluate(self, law: int, t: float, x: Any, xdot: Any, out: Any) -> int:
         """Evaluate a user function for the core; `sizes` are the numbers of its marker quantities and results."""
+        begin = time.perf_counter()
         try:
             k, size = self._sizes[law]
             values = np.asarray(self._law(law, t, np.array(ffi.unpack(x, k)), np.array(ffi.unpack(xdot, k))), dtype=float)
@@ -49,7 +53,14 @@ class LawOwner:
                 return lib.ZD_NOT_FINITE
             self._error = error
             return CALLBACK
+        self.seconds[law] = self.seconds.get(law, 0.0) + time.perf_counter() - begin
         return DONE
+
+    @property
+    def calls(self) -> dict[str, float]:
+        """Time spent in each user function that was called, in s, by what it is."""
+        rows = getattr(self._law, "rows", ())
+        return {rows[law].law.what: seconds for law, seconds in self.seconds.items() if law < len(rows)}
 
 
 def table_of_programs(law: Law, sizes: dict[int, tuple[int, int]]) -> Any:
