@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 AXES = "xyz"
+COMPONENTS = {2: ("x", "y"), 3: ("x", "y", "z"), 9: tuple(row + column for row in AXES for column in AXES)}     # by number
 CLOSED = 1e-12      # below it, the sine of a second angle is that of axes in line
 
 

@@ -105,9 +105,9 @@ class Ensemble:
             return None
         vectors = self._stacked(base)
         first = vectors[0]
-        if first.ndim != 2 or AXES[axis] >= first.shape[1]:
+        if first.ndim != 2 or AXES.index(axis) >= first.shape[1]:
             return None
-        return [each[:, AXES[axis]] for each in vectors] if self.t is None else vectors[..., AXES[axis]]
+        return [each[:, AXES.index(axis)] for each in vectors] if self.t is None else vectors[..., AXES.index(axis)]
 
     def _stacked(self, name: str) -> Any:
         rows, found = self._part.rows, self._part.arrays.get(name, np.zeros(0))

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from .._private import checks, gateway
 from .._private.gateway import Variable, known_events
 from .._private.gateway.known_events import Reading
+from .._private.rotations import COMPONENTS
 from ..errors import WrongName, WrongType, WrongValue
 from .defaults import Defaults
 from .measure_values import Watching
@@ -250,9 +251,8 @@ class BaseSystem(Defaults):
                 raise WrongValue(f"{what} must be a scalar measure of positions or velocities, and {name!r} depends on "
                                  "accelerations", "wrong-measure")
             if place.component is None and (size := core.measure_size(place.number)) != 1:
-                component = f": '{name}.x' is one" if size <= 3 else ""
-                raise WrongValue(f"{what} must be a scalar measure, and {name!r} has {size} components{component}",
-                                 "wrong-measure")
+                raise WrongValue(f"{what} must be a scalar measure, and {name!r} has {size} components: "
+                                 f"'{name}.{COMPONENTS[size][0]}' is one", "wrong-measure")
             return Reading(known_events.MEASURE, place.number, place.component or 0)
         coordinates, velocities = ([variable.name for variable in group] for group in (self.coordinates, self.velocities))
         if name in coordinates:

@@ -11,10 +11,10 @@ import numpy as np
 
 from .._private import checks, gateway
 from .._private.gateway import Acting, CoreSystem
-from .._private.rotations import angles_of, is_order, quaternions_of
+from .._private.rotations import COMPONENTS, angles_of, is_order, quaternions_of
 from ..errors import WrongName, WrongValue
 
-AXES = {"x": 0, "y": 1, "z": 2}     # names of components
+AXES = COMPONENTS[3]    # names of components along axes
 SAME = 1e-9             # of all changes by redundant multipliers: a reaction that changes by less is unique
 PART = 2**28            # bytes of positions that a measure is evaluated at together
 
@@ -40,11 +40,11 @@ def find(name: Any, known: Mapping[str, tuple[int, int]]) -> Place | None:
     if not isinstance(name, str):
         return None
     base, _, axis = name.rpartition(".")
-    whole, component = (name, None) if name in known else (base, AXES.get(axis, -1))
-    number, size = known.get(whole, (-1, 0))
-    if number < 0 or (component is not None and not 0 <= component < size in (2, 3)):
-        return None
-    return Place(number, component, np.asarray if axis == "rotation" and component is None else None)
+    if name in known:
+        return Place(known[name][0], None, np.asarray if axis == "rotation" else None)
+    number, size = known.get(base, (-1, 0))
+    parts = COMPONENTS.get(size, ())
+    return Place(number, parts.index(axis)) if axis in parts else None
 
 
 def view(name: Any, known: Mapping[str, tuple[int, int]]) -> Place | None:
@@ -62,7 +62,7 @@ def view(name: Any, known: Mapping[str, tuple[int, int]]) -> Place | None:
 def component_names(name: str, shape: tuple[int, ...], *, has_axes: bool = True) -> list[str]:
     """Names of the entries of a value: "pin.force.x" along axes, else "u[0]" and "K[0, 1]"; of a number, its own."""
     if has_axes and len(shape) == 1 and shape[0] <= len(AXES):
-        return [f"{name}.{axis}" for axis in list(AXES)[:shape[0]]]
+        return [f"{name}.{axis}" for axis in AXES[:shape[0]]]
     return [f"{name}[{', '.join(map(str, place))}]" if place else name for place in np.ndindex(shape)]
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from ..._private.gateway.mechanisms.blocks import BlockCore, of_joints
 from ..._private.gateway.mechanisms.core import MechanismCore
 from ..._private.gateway.mechanisms.space import SpaceCore
-from ..._private.rotations import quaternion_of
+from ..._private.rotations import COMPONENTS, quaternion_of
 from ...errors import CorrectionFailed, InconsistentStart, SingularSystem, sentence
 from ..elements import columns
 from ..elements.drawing import Drawing
@@ -253,7 +253,8 @@ class Starting:
                 targets += [Target(_component(name, i, np.shape(value)), index[name], i, float(each))
                             for i, each in enumerate(np.ravel(value))]
             else:
-                targets.append(Target(name, index[base], "xyz".index(axis), float(value)))
+                component = COMPONENTS[core.measures[index[base]].size].index(axis)
+                targets.append(Target(name, index[base], component, float(value)))
         return targets
 
     # ---- diagnosis ----

@@ -100,9 +100,10 @@ class CouplingVerbs(Elements):
             ratio=ratio)
 
     def _couple(self, name: str, kind: str, of: tuple[str, ...], **how: Any) -> Coupling:
-        """Add a coupling of measures; its effort is a torque if all of them are angles or rates of angles."""
+        """Add a coupling of measures; its effort is a torque if all are angles, rates of angles or cosines of a rotation."""
         bases = [base.partition(".")[2] for each in of for base in checked_reading(each, each, None, self._elements).quantities]
-        return self._add(Coupling(name, kind, of, "torque" if all("ang" in base for base in bases) else "force", **how))
+        effort = "torque" if all("ang" in base or "rotation" in base for base in bases) else "force"
+        return self._add(Coupling(name, kind, of, effort, **how))
 
     def coupler(self, name: str, value: LawLike | Values, *, of: Bindings | None = None) -> Coupling:
         """Couple measures of positions by any function of them that has to be zero; the same as `constraint`, said of joints.

@@ -40,9 +40,9 @@ class Measure:
         return hash(self.name)
 
 
-def _component(axis: str) -> Measure:
+def component(axis: str) -> Measure:
     return property(lambda self: Measure(f"{self.name}.{axis}"),        # type: ignore[return-value]
-                    doc=f"The component along the drawing's {axis} axis.")
+                    doc=f"The component along the drawing's {axis[0]} axis{' of the body axis ' * (len(axis) > 1)}{axis[1:]}.")
 
 
 class VectorMeasure(Measure):
@@ -50,7 +50,7 @@ class VectorMeasure(Measure):
 
     __slots__ = ()
 
-    x, y = (_component(axis) for axis in "xy")
+    x, y = (component(axis) for axis in "xy")
 
 
 class VectorMeasure3(VectorMeasure):
@@ -58,7 +58,7 @@ class VectorMeasure3(VectorMeasure):
 
     __slots__ = ()
 
-    z = _component("z")
+    z = component("z")
 
 
 def name_of(measure: Any, argument: str) -> str:

@@ -7,12 +7,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..._private import checks
-from ..._private.rotations import AXES, is_order
+from ..._private.rotations import AXES, COMPONENTS, is_order
 from ...errors import WrongAttribute, WrongValue
 from .bodies import Body, Ground, Link, MassProperties, Particle, Point, _End
 from .drawing import Drawing, inertias_of_bodies
 from .frames import Pose3
-from .measures import Measure, vector
+from .measures import Measure, component, vector
 from .numbers import AS_GIVEN, Numbers
 
 SLENDER = 1 / 20        # of its length: default diameter of a link
@@ -60,9 +60,11 @@ def _remedy(J: np.ndarray) -> str:
 
 
 class RotationMeasure(Measure):
-    """Orientation of a body: (k, 3, 3), the columns are its axes in the drawing."""
+    """Orientation of a body: (k, 3, 3), the columns are its axes in the drawing; `zy` is the z component of its y axis."""
 
     __slots__ = ()
+
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = (component(each) for each in COMPONENTS[9])
 
     def euler(self, order: str) -> Measure:
         """Orientation as angles (k, 3) in rad, by rotations about the body's own axes in this order, such as "zyx" or "zxz"."""

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..._private.rotations import COMPONENTS
 from ...errors import WrongValue
 from ..elements.bodies import Body, Link, Point
 from ..elements.joints import Joint, is_hinge
@@ -63,6 +64,9 @@ def _in_space(owner: str, element: Any, quantity: str, component: list[str]) -> 
         return None if component else Reading((f"{owner}.{quantity}",), False)
     if quantity in rates and rates[quantity] not in ("position", "spin"):
         return None if component else Reading((f"{owner}.{rates[quantity]}",), True)
+    if quantity == "rotation" and reading_of_start(f"{owner}.rotation", {owner: element}):
+        is_one = len(component) == 1 and component[0] in COMPONENTS[9]
+        return Reading((f"{owner}.rotation.{component[0]}",), False) if is_one else None
     axes = component or ["x", "y", "z"]
     if len(component) > 1 or not set(axes) <= {"x", "y", "z"} or (quantity not in rates and quantity not in quantities(element)):
         return None

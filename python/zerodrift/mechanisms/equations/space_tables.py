@@ -12,7 +12,7 @@ from ..._private.gateway.mechanisms import space
 from ..._private.gateway.mechanisms.element_tables import ElementQuantity, three
 from ..._private.gateway.mechanisms.space import AS_DRAWN, Quantity, SpaceCore
 from ..._private.gateway.mechanisms.space_tree import SpaceTreeCore
-from ..._private.rotations import AXES, quaternion_of
+from ..._private.rotations import AXES, COMPONENTS, quaternion_of
 from ..elements.bodies import Body, Particle, Point
 from ..elements.drawing import Drawing
 from ..elements.frames import triple
@@ -100,6 +100,9 @@ class SpaceTables(Tables):
 
     def _reading_of(self, name: str) -> Quantity:
         owner, _, measured = name.rpartition(".")
+        if owner.endswith(".rotation"):
+            body = self.drawing.elements[owner.removesuffix(".rotation")]
+            return self.rotation_quantities(body)[COMPONENTS[9].index(measured)]
         if measured in AXES:
             owner, _, vector = owner.rpartition(".")
             element, _, end = owner.partition(".")

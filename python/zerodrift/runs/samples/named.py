@@ -74,7 +74,7 @@ class Named:
         name, body = (getattr(each, "name", each) for each in (name, body))
         base, _, axis = name.rpartition(".") if isinstance(name, str) else ("", "", "")
         if axis in AXES:
-            return self._in_axes_of(base, body)[:, AXES[axis]]
+            return self._in_axes_of(base, body)[:, AXES.index(axis)]
         values = self[name]
         if values.ndim == 1 or body == "ground":
             return values
@@ -93,7 +93,7 @@ class Named:
         if place is None:
             return None
         values = list(self.outputs.values())[place.number]
-        return place.pick(values) if values.ndim > 1 < values.shape[1] else values
+        return place.pick(values.reshape(len(values), math.prod(values.shape[1:])))
 
     def unique(self, name: MeasureLike, body: str | Body | None = None) -> Any:
         """Return whether a measure of a mechanism is determined uniquely, although constraints are redundant.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Generic, NamedTuple
 from ....errors import WrongValue
 from ... import checks
 from ...core import ffi, lib
+from ...rotations import COMPONENTS
 from ..base import Card, card_of, text
 
 if TYPE_CHECKING:
@@ -111,8 +112,8 @@ def component_places(measures: Iterable[OutputSpec], dimension: int) -> dict[str
     """Index and component of each scalar measure, and of each component of a vector, by name."""
     found: dict[str, tuple[int, int]] = {}
     for i, each in enumerate(measures):
-        size = each.components(dimension)
-        parts = [each.name] if size == 1 else [f"{each.name}.{axis}" for axis in "xyz"[:size]]
+        axes = COMPONENTS.get(each.components(dimension))
+        parts = [f"{each.name}.{axis}" for axis in axes] if axes else [each.name]
         found |= {name: (i, component) for component, name in enumerate(parts)}
     return found
 
