@@ -12,7 +12,7 @@ from ...errors import WrongType, WrongValue
 from ..elements.bodies import Body, Point
 from ..elements.frames import perpendicular
 from ..elements.joints import draws_length
-from ..elements.space_joints import BY_KIND, SpaceJoint, has_torque, is_blade
+from ..elements.space_joints import BY_KIND, SpaceJoint, has_torque, is_blade, swivels
 from .registry import Elements
 
 Side = Body | Point | str
@@ -99,6 +99,8 @@ class SpaceJointVerbs(Elements):
             self._turning(name, "the axis of", first.body)
         elif is_blade(joint.row):
             self._turning(name, "knife edge", second.body)
+        if damping and swivels(joint.row):
+            self._turning(name, "damping of", first.body, second.body)
         frame = np.eye(3) if axis is None else _frame(axis, normal)
         frames = tuple(np.stack([side.body.pose.local_direction(row) for row in frame]) for side in (first, second))
         damping = checks.number(f"damping of {name!r}", damping, least=0)

@@ -56,8 +56,9 @@ def _values(plane: type[Joint] | None, space: type[SpaceJoint] | None) -> dict[s
     joint: Any = plane or space
     in_plane, in_space = bool(plane and plane.row.takes_axis), bool(space and (space.row.axes == 1 or is_blade(space.row)))
     to_origin = not is_at_point(space.row) if space else joint.row.takes_axis
-    return {"carrier": "body" if joint.is_of_one_body else "first body", "coordinate": joint.coordinate or "",
-            "unit": "N m s" if joint.coordinate == "angle" else "N s/m",
+    return {"carrier": "body" if joint.is_of_one_body else "first body",
+            "coordinate": joint.coordinate or "relative angular velocity",
+            "unit": "N s/m" if joint.coordinate == "displacement" else "N m s",
             "left_out": "; left out: as drawn" if draws_length(joint.row) else "",
             "size": _size(plane is not None, space is not None), "axis_size": _size(in_plane, in_space),
             "only": "In space: its " if plane and in_space and not in_plane else "Its ",

@@ -12,7 +12,7 @@ from ..._private import checks
 from ...errors import WrongType, WrongValue
 from ..elements.frames import perpendicular
 from ..elements.joints import Joint, draws_length, holds_angle, holds_distance
-from ..elements.space_joints import SpaceJoint, advances, is_at_point, is_blade, is_on_plane
+from ..elements.space_joints import SpaceJoint, advances, is_at_point, is_blade, is_on_plane, swivels
 from .registry import Elements
 from .space_joint_verbs import FLAT, checked_cut
 from .table_joint_documentation import documentation
@@ -71,7 +71,7 @@ def space_words(joint: type[SpaceJoint]) -> list[str]:
     words = [axis_word(joint)] if row.axes else []
     words += [] if holds_distance(joint.row) else ["at"]
     words += [length_word(joint)] if row.takes_length else []
-    words += ["damping"] if row.freedoms is not None and len(row.freedoms) == 1 and joint.coordinate else []
+    words += ["damping"] if swivels(row) or (row.freedoms is not None and len(row.freedoms) == 1 and joint.coordinate) else []
     return words if row.freedoms is None else [*words, "cut"]
 
 

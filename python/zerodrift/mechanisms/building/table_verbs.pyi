@@ -73,6 +73,7 @@ class SpaceScrew(SpaceJoint):
     first_torque: VectorMeasure3
 
 class SpaceSpherical(SpaceJoint):
+    torque: VectorMeasure3
     position: VectorMeasure3
     velocity: VectorMeasure3
 
@@ -459,7 +460,7 @@ class TableVerbs(Elements):
         VectorMeasure3('joint.force')
         """
 
-    def spherical(self, name: str, first: Side, second: Side, *, at: ArrayLike | None = None,
+    def spherical(self, name: str, first: Side, second: Side, *, at: ArrayLike | None = None, damping: float = 0.0,
                   cut: bool = False) -> SpaceSpherical:
         """Turns one body about a point of the other; a particle is held at that point.
 
@@ -470,6 +471,8 @@ class TableVerbs(Elements):
             Two points; a body and a point; or two bodies, and `at`.
         at : array_like (3,)
             Position of the joint in the drawing, in m.
+        damping : float
+            Damping of its relative angular velocity, in N m s, at least 0.
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
 
@@ -497,7 +500,7 @@ class TableVerbs(Elements):
         """
 
     def universal(self, name: str, first: Side, second: Side, *, axes: tuple[ArrayLike, ArrayLike], at: ArrayLike | None = None,
-                  cut: bool = False) -> SpaceUniversal:
+                  damping: float = 0.0, cut: bool = False) -> SpaceUniversal:
         """Joins two bodies by a cross, with an axis on each that are perpendicular.
 
         Parameters
@@ -509,6 +512,8 @@ class TableVerbs(Elements):
             Axis of the first body and axis of the second, perpendicular, in the drawing.
         at : array_like (3,)
             Position of the joint in the drawing, in m.
+        damping : float
+            Damping of its relative angular velocity, in N m s, at least 0.
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
 

@@ -34,7 +34,8 @@ class SpaceJoint(Joint):
     frames : tuple of ndarray (3, 3)
         Axis of the joint, a normal of it and the third direction as rows, in the frame of the first body and of the second.
     damping : float
-        Damping coefficient of its coordinate, in N m s or N s/m.
+        Damping coefficient of its coordinate, in N m s or N s/m; of spherical and universal joints of the angular velocity of
+        the second body relative to the first.
     cut : bool
         True if the joint must close a loop, so that no joint coordinate belongs to it.
     """
@@ -52,7 +53,7 @@ class SpaceJoint(Joint):
         for name, doc in _measures(cls.row).items():
             setattr(cls, name, scalar(name, doc))
         vectors = PLACE if is_at_point(cls.row) else {}
-        if has_torque(cls.row):
+        if has_torque(cls.row) or swivels(cls.row):
             vectors = {"torque": TORQUE, **(vectors or {"first_torque": FIRST_TORQUE})}
         for name, doc in vectors.items():
             setattr(cls, name, vector(name, doc))
@@ -73,7 +74,10 @@ class SpaceJoint(Joint):
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
-        return {"pitch": now(self, "pitch", self.length)} if advances(self.row) else super().numbers(now)
+        if advances(self.row):
+            return {"pitch": now(self, "pitch", self.length)}
+        return {**super().numbers(now), **({"damping": self.damping} if swivels(self.row) and all(
+            body.turns for body in self.bodies) else {})}
 
     def semiaxes_with(self, numbers: Numbers) -> tuple[float, float, float]:
         """Semiaxes of the rolling body along the rows of the second frame, in m; zero for joints without rolling."""
@@ -127,6 +131,12 @@ def _measures(row: JointKind) -> dict[str, str]:
 def has_torque(row: JointKind) -> bool:
     """True if the joint transmits a moment, by its constraints or by a motor or damper."""
     return any(quantity == "cosine" for quantity, _, _ in row.rows)
+
+
+def swivels(row: JointKind) -> bool:
+    """True if the joint leaves rotations about two or three axes free, and nothing else: its damping is of their sum."""
+    kinds = [freedom.kind for freedom in row.freedoms or ()]
+    return kinds in (["swings"], ["turns", "turns"])
 
 
 def is_at_point(row: JointKind) -> bool:

@@ -140,7 +140,7 @@ def _of_joints(tables: Tables) -> Iterator[OutputSpec]:
     for i, joint in enumerate(tables.joints):
         yield OutputSpec(f"{joint.name}.force", "N", "joint force", i, joint.dimension)
         if isinstance(joint, SpaceJoint):
-            turns, slides = has_torque(joint.row), not is_at_point(joint.row)
+            turns, slides = has_torque(joint.row) or bool(joint.damping), not is_at_point(joint.row)
         else:
             turns = holds_angle(joint.row) or (has_coordinate(joint) and joint.coordinate == "angle")
             slides = joint.coordinate == "displacement"

@@ -19,7 +19,7 @@ from ..elements.frames import triple
 from ..elements.joints import Joint
 from ..elements.numbers import Numbers
 from ..elements.space_bodies import SpaceInertias
-from ..elements.space_joints import SpaceJoint
+from ..elements.space_joints import SpaceJoint, swivels
 from ..elements.table_forces import ROTATIONS, TableForce
 from . import space_tree
 from .tables import Tables
@@ -134,6 +134,12 @@ class SpaceTables(Tables):
         number = self.joint_number[joint.name]
         angles = sum(len(before.angles) for before in self.joints[:number])
         return space.coordinate_quantity(self.joint_rows[number], joint.coordinates.index(coordinate), angles)
+
+    def _damped(self, joint: Any) -> list[int]:
+        if not swivels(joint.row):
+            return super()._damped(joint)
+        first, second = (self.number[body.name] for body in joint.bodies)
+        return [self._quantity(f"{joint.name} turn {i}", Quantity("turn", first, second, a=a)) for i, a in enumerate(AS_DRAWN)]
 
     def _element_quantities(self, element: TableForce) -> list[Quantity]:
         if element.joint is not None:

@@ -215,10 +215,13 @@ class Tables:
     def _damp(self) -> None:
         """Add the damping of joints."""
         for i, joint in enumerate(self.joints):
-            damping = self.numbers(joint, "damping", joint.damping) if has_coordinate(joint) else 0.0
-            if damping:
-                quantity = self._quantity_of(f"{joint.name}.{joint.coordinate}")
-                self.forces.append(entries.GeneralizedForce("spring", quantity, damping=damping, joint=i))
+            if damping := self.numbers(joint, "damping", joint.damping):
+                self.forces += [entries.GeneralizedForce("spring", quantity, damping=damping, joint=i)
+                                for quantity in self._damped(joint)]
+
+    def _damped(self, joint: Any) -> list[int]:
+        """Marker quantities that the damping of a joint acts along."""
+        return [self._quantity_of(f"{joint.name}.{joint.coordinate}")] if has_coordinate(joint) else []
 
     # ---- drives and couplings ----
 
