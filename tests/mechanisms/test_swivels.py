@@ -78,3 +78,68 @@ def test_a_particle_has_no_damping_at_a_ball_joint():
     m = zd.Mechanism("string", dimension=3)
     with refused("wrong-element", "damping of 's'"):
         m.spherical("s", m.body("b", 1.0, (1, 1, 1)).point((1, 0, 0)), m.particle("p", 1.0, at=(1, 0, 0)), damping=1.0)
+
+
+INERTIA = 0.5, 0.9, 0.7
+
+
+def cross(Q, start, end):
+    """Angles and speeds of a body on a cross with axes x and z by Lagrange's equations; Q(t, angles, speeds) (2,)."""
+    Ix, Iy, Iz = INERTIA
+
+    def rates(t, y):
+        c, s = np.cos(y[1]), np.sin(y[1])
+        Q1, Q2 = Q(t, y[:2], y[2:])
+        first = (Q1 - 2 * (Iy - Ix) * s * c * y[2] * y[3]) / (Ix * c**2 + Iy * s**2)
+        return [*y[2:], first, (Q2 + (Iy - Ix) * s * c * y[2]**2) / Iz]
+
+    return solve_ivp(rates, (0, end), [0, 0, *start], method="DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
+
+
+@pytest.mark.parametrize("closed_form", [None, False])
+@pytest.mark.parametrize("layout", LAYOUTS)
+@pytest.mark.parametrize("is_swapped", [False, True])
+def test_motors_springs_and_dampers_on_either_angle_are_those_of_lagrange(layout, closed_form, is_swapped):
+    m = zd.Mechanism("cross", dimension=3)
+    body = m.body("b", 1.0, INERTIA)
+    axes = ((1, 0, 0), (0, 0, 1))
+    sides = (body, m.ground) if is_swapped else (m.ground, body)
+    u = m.universal("u", *sides, at=(0, 0, 0), axes=axes[::-1] if is_swapped else axes)
+    first, second = (u.angle2, u.angle1) if is_swapped else (u.angle1, u.angle2)
+    sign = -1.0 if is_swapped else 1.0      # the ground turns back against the body
+    m.motor("drive", first, torque=lambda t, speed: sign * 2 * np.cos(t) - 0.3 * speed)
+    m.torsion_spring("spring", second, stiffness=4.0, angle=sign * 0.2, damping=0.1)
+    m.torsion_spring("law", second.name, torque=lambda angle, speed: -3 * angle**3 - 0.2 * speed)
+    m.start({f"{first.name}_speed": sign, f"{second.name}_speed": sign * 0.5})
+    sol = zd.simulate(m.system(layout), 1.5, rtol=1e-11, atol=1e-12, closed_form=closed_form)
+    own = cross(lambda t, q, v: (2 * np.cos(t) - 0.3 * v[0], -4 * (q[1] - 0.2) - 0.3 * v[1] - 3 * q[1]**3), (1.0, 0.5), 1.5)
+    found = [sol[name][-1] for name in (first.name, second.name, f"{first.name}_speed", f"{second.name}_speed")]
+    assert found == pytest.approx(sign * own, abs=1e-9)
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_a_driven_angle_needs_the_torque_of_lagrange(layout):
+    m, (Ix, Iy, Iz) = ball("universal", INERTIA, axes=((1, 0, 0), (0, 0, 1))), INERTIA
+    m.motor("spin", "u.angle1".replace("u", "s"), angle=lambda t: 2 * t)
+    m.motor("nod", m["s"].angle2, angle=lambda t: 0.5 * t**2)
+    kin = zd.kinematics(m.system(layout), t=np.linspace(0, 1, 21))
+    inv, q, v = zd.inverse_dynamics(m.system(layout), kin), kin["s.angle2"], kin["s.angle2_speed"]
+    assert inv["spin.torque"] == pytest.approx((Iy - Ix) * np.sin(2 * q) * 2 * v, abs=1e-9)
+    assert inv["nod.torque"] == pytest.approx(Iz * np.ones(21) - (Iy - Ix) / 2 * np.sin(2 * q) * 4, abs=1e-9)
+    assert inv["spin.power"] == pytest.approx(2 * inv["spin.torque"], abs=1e-9)
+
+
+def test_drives_of_universal_joints_are_saved_and_say_which_angle(tmp_path):
+    m = ball("universal", axes=((1, 0, 0), (0, 0, 1)))
+    m.motor("spin", m["s"].angle1, speed=2.0)
+    m.torsion_spring("spring", m["s"].angle2, stiffness=2.0)
+    again = zd.load(m.save(tmp_path / "m"))
+    assert (again["spin"].which, again["spring"].which) == ("angle1", "angle2")
+    assert repr(again["spin"]) == "<motor spin: speed of s.angle1>"
+    assert zd.simulate(again, 0.5)["s.angle1"][-1] == pytest.approx(1.0, abs=1e-9)
+    with refused("wrong-element", "s.angle1 or s.angle2"):
+        m.motor("other", "s", torque=1.0)
+    with refused("wrong-element", "s.angle1 or s.angle2"):
+        m.torsion_spring("other", "s", stiffness=1.0)
+    with refused("prescribed-twice", "spin"):
+        m.motor("other", m["s"].angle1, angle=0.0)

@@ -12,6 +12,7 @@ from ...errors import WrongType, WrongValue
 from ..elements.bodies import Body, Particle, Point
 from ..elements.forces import Actuator, Force, Motor, Torque
 from ..elements.joints import Joint
+from ..elements.measures import Measure
 from .registry import Elements
 
 VECTORS = {2: "(0.0, -10.0)", 3: "(0.0, 0.0, -10.0)"}      # examples in messages
@@ -30,7 +31,7 @@ class ForceVerbs(Elements):
     saved nor exported; ``print(m)`` has the reason.
     """
 
-    def motor(self, name: str, joint: Joint | str, *, angle: LawLike | None = None, displacement: LawLike | None = None,
+    def motor(self, name: str, joint: Joint | Measure | str, *, angle: LawLike | None = None, displacement: LawLike | None = None,
               speed: LawLike | None = None, torque: LawLike | None = None, force: LawLike | None = None,
               of: Bindings | None = None) -> Motor:
         """Drive a joint.
@@ -38,8 +39,8 @@ class ForceVerbs(Elements):
         Parameters
         ----------
         name : str
-        joint : Joint or name
-            With an angle or a displacement.
+        joint : Joint, measure or name
+            With an angle or a displacement; or one of two angles, such as ``universal.angle1``.
         angle, displacement : float, callable or SymPy expression of t
             Prescribed coordinate of the joint, in rad or m, zero as drawn; t counts from 0. Callables are built of NumPy's
             functions.
@@ -80,16 +81,17 @@ class ForceVerbs(Elements):
             raise WrongType(f"motor {name!r} needs one of {', '.join(given)}, not {' and '.join(words) or 'none'}",
                             "conflicting-arguments")
         drives = words[0]
-        joint = self._joint(f"joint of motor {name!r}", joint, DRIVES[drives])
-        if joint.coordinate is None and drives == "speed":
+        joint, which = self._joint_angle(f"joint of motor {name!r}", joint, DRIVES[drives])
+        if joint.coordinate is None and drives == "speed" and which is None:
             raise WrongValue(f"{joint.name!r} has {' and '.join(joint.coordinates)}: motor {name!r} must say which, not speed",
                              "missing-argument")
-        law = self._law(f"{drives} of motor {name!r}", given[drives], of, positions=drives not in ("torque", "force"),
-                        reactions=drives in ("torque", "force"), own=joint if drives in ("torque", "force") else None)
+        is_effort = drives in ("torque", "force")
+        law = self._law(f"{drives} of motor {name!r}", given[drives], of, positions=not is_effort, reactions=is_effort,
+                        own=joint if is_effort else None, which=which)
         if drives in ("angle", "displacement") and law.measures:
             raise WrongValue(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()",
                              "user-function")
-        motor = Motor(name, joint, drives, law)
+        motor = Motor(name, joint, drives, law, which)
         rival = next((other for other in self.motors if other.joint is joint and other.prescribes
                       and other.coordinate == motor.coordinate), None)
         if motor.prescribes and rival is not None:

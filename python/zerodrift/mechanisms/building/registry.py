@@ -202,6 +202,18 @@ class Elements:
                              "wrong-element")
         return value
 
+    def _joint_angle(self, argument: str, value: Any, coordinate: tuple[str, ...]) -> tuple[Joint, str | None]:
+        """The same, also of a joint of two angles by the measure of one, whose name comes second."""
+        owner, _, which = (value.name if isinstance(value, Measure) else value if isinstance(value, str) else "").partition(".")
+        joint = self._named(argument, owner or value)
+        angles = getattr(joint, "angles", ()) if isinstance(joint, Joint) and joint.coordinate is None else ()
+        if which in angles and "angle" in coordinate and self._is_own(joint):
+            return joint, which if which != "angle" else None
+        if len(angles) > 1:
+            raise WrongValue(f"{argument} must say which angle of {joint.name!r}: "
+                             f"{' or '.join(f'{joint.name}.{each}' for each in angles)}", "wrong-element")
+        return self._joint(argument, value, coordinate), None
+
     def _sides(self, name: str, first: Any, second: Any, at: Any) -> tuple[Point, Point]:
         """Points of the first and the second body that a joint connects, in the frames of their bodies."""
         first, second = self._named(f"first of {name!r}", first), self._named(f"second of {name!r}", second)
@@ -253,15 +265,16 @@ class Elements:
         return vector / length
 
     def _law(self, what: str, given: Any, of: Mapping[str, Any] | None = None, *, positions: bool = False,
-             reactions: bool = False, own: Any = None) -> Law:
+             reactions: bool = False, own: Any = None, which: str | None = None) -> Law:
         """User function whose measures exist; with `reactions`, of reactions and accelerations, too.
 
         `own` is the element that gets it, whose measures it may name, or the joint that the element acts on: `OWN` of its
-        measures need no `of`.
+        measures need no `of`; `which` is the angle of the joint where it has several.
         """
         elements = self._elements if own is None else {**self._elements, own.name: own}
-        bound = {word: f"{own.name}.{word}" for word in OWN if own is not None and word not in self.parameters
-                 and reading(f"{own.name}.{word}", elements)}
+        words = {"angle": which, "speed": f"{which}_speed"} if which else dict(zip(OWN, OWN, strict=True))
+        bound = {word: f"{own.name}.{measure}" for word, measure in words.items()
+                 if own is not None and word not in self.parameters and reading(f"{own.name}.{measure}", elements)}
         law, dynamic = Law(what, given, of={**bound, **of} if bound and of else of or bound, parameters=self.parameters), []
         for measure in law.measures:
             self._check_measured(what, measure, elements)

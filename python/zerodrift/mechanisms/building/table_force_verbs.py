@@ -19,7 +19,7 @@ from .registry import Elements
 from .table_joint_documentation import POINTS, SIDES, wrapped
 
 WORDS = {
-    "joint": ("Joint or name", "With one angle, which counts turns."),
+    "joint": ("Joint, measure or name", "With one angle, which counts turns; or one of two, such as ``universal.angle1``."),
     "at": ("array_like {vector}", "Position of the element in the drawing, in m."),
     "axis": ("array_like {axis_size}", "{axis}direction in the drawing; it turns with the first body.{own_axes}"),
     "normal": ("array_like (3,), optional", "In space its second direction, which is made perpendicular; the third follows."),
@@ -38,8 +38,8 @@ WORDS = {
     "of": ("dict of str to measure", "Measures that the callable receives, by argument name.")}
 UNITS = {"stiffness": ("N/m", "N m/rad"), "damping": ("N s/m", "N m s/rad"), "torsion": ("", "N m/rad"),
          "torsion_damping": ("", "N m s/rad"), "value": ("N", "N m")}      # along marker quantities in m and in rad
-KINDS = {"name": "str", "first": "Side", "second": "Side", "joint": "Joint | str", "value": "LawLike", "force": "LawLike | None",
-         "torque": "LawLike | None", "of": "Bindings | None"}
+KINDS = {"name": "str", "first": "Side", "second": "Side", "joint": "Joint | Measure | str", "value": "LawLike",
+         "force": "LawLike | None", "torque": "LawLike | None", "of": "Bindings | None"}
 NEEDED = inspect.Parameter.empty
 FLAT = 1e-6             # sine of the angle below which directions are parallel
 
@@ -106,13 +106,14 @@ def _add(m: Elements, force: type[TableForce], name: Any, given: dict[str, Any])
     if has(entry, *ROTATIONS) and not entry.at_joint:
         m._turning(name, what, *(end.body for end in ends))
     place, law = _directions(m, entry, name, given, ends), law_word(entry)
+    place |= {"which": which} if (which := given.get("which")) else {}
     if entry.is_spring and law:
         _check_one(f"{what} {name!r}", law, given)
     values = {path: value for word in parameters(entry) for path, value in _values(word, name, entry, given[word]).items()}
     element = force(name, *ends, values=values, **place)
     if given.get(law) is not None:
         amend(element, law=m._law(f"{law} of {what} {name!r}", given[law], given["of"], reactions=True,
-                                  own=(element.joint or element) if entry.is_spring else None))
+                                  own=(element.joint or element) if entry.is_spring else None, which=element.which))
     return m._add(element)
 
 
@@ -144,7 +145,9 @@ def _entry(m: Elements, force: type[TableForce], name: Any, given: dict[str, Any
 def _ends(m: Elements, entry: ElementKind, name: str, given: dict[str, Any]) -> tuple[Any, ...]:
     """The joint, or the points of both bodies."""
     if entry.at_joint:
-        return (m._joint(f"joint of {name!r}", given["joint"], ("angle",)),)
+        joint, which = m._joint_angle(f"joint of {name!r}", given["joint"], ("angle",))
+        given["which"] = which
+        return (joint,)
     if is_between_points(entry):
         return m._different(name, *(m._point(side, given[side], center=True) for side in ("first", "second")))
     return m._sides(name, given["first"], given["second"], given["at"])

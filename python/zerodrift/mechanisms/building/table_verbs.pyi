@@ -579,15 +579,16 @@ class TableVerbs(Elements):
         <spring element: ground - body>
         """
 
-    def torsion_spring(self, name: str, joint: Joint | str, *, stiffness: ArrayLike | None = None, angle: ArrayLike | None = None,
-                       damping: ArrayLike = 0.0, torque: LawLike | None = None, of: Bindings | None = None) -> TorsionSpring:
+    def torsion_spring(self, name: str, joint: Joint | Measure | str, *, stiffness: ArrayLike | None = None,
+                       angle: ArrayLike | None = None, damping: ArrayLike = 0.0, torque: LawLike | None = None,
+                       of: Bindings | None = None) -> TorsionSpring:
         """Spring with a damper about the axis of a joint.
 
         Parameters
         ----------
         name : str
-        joint : Joint or name
-            With one angle, which counts turns.
+        joint : Joint, measure or name
+            With one angle, which counts turns; or one of two, such as ``universal.angle1``.
         stiffness : float
             In N m/rad, at least 0.
         angle : float, optional

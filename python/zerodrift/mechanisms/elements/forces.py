@@ -16,7 +16,7 @@ from .immutable import Fixed, amend
 from .joints import Joint
 from .measures import scalar
 from .numbers import AS_GIVEN, Numbers
-from .table_forces import UNITS, TableForce
+from .table_forces import UNITS, TableForce, placed
 from .user_functions import InputLaw, Law
 
 
@@ -30,6 +30,8 @@ class Motor(Fixed):
     drives : str
         "angle", "displacement", "speed", "torque" or "force".
     law : Law
+    which : str or None
+        "angle1" or "angle2" of a universal joint.
     """
 
     kind = "motor"
@@ -37,13 +39,13 @@ class Motor(Fixed):
     force = scalar("force", "The motor's part of the joint's force, positive where it drives the displacement up, in N.")
     power = scalar("power", "The power that it puts in, in W.")
 
-    def __init__(self, name: str, joint: Joint, drives: str, law: Law) -> None:
-        self.name, self.joint, self.drives, self.law = name, joint, drives, law
+    def __init__(self, name: str, joint: Joint, drives: str, law: Law, which: str | None = None) -> None:
+        self.name, self.joint, self.drives, self.law, self.which = name, joint, drives, law, which
 
     @property
     def coordinate(self) -> str:
-        """Coordinate of the joint that it drives, "angle" or "displacement"."""
-        return self.joint.coordinate or {"torque": "angle", "force": "displacement"}.get(self.drives, self.drives)
+        """Coordinate of the joint that it drives, "angle" or "displacement", or one of two angles."""
+        return self.which or self.joint.coordinate or {"torque": "angle", "force": "displacement"}.get(self.drives, self.drives)
 
     @property
     def prescribes(self) -> bool:
@@ -55,7 +57,7 @@ class Motor(Fixed):
         return {} if self.law.constant is None else {self.drives: self.law.constant}
 
     def __repr__(self) -> str:
-        return f"<motor {self.name}: {self.drives} of {self.joint.name}>"
+        return f"<motor {self.name}: {self.drives} of {placed(self)}>"
 
 
 class Actuator(Fixed):
@@ -234,7 +236,7 @@ def driven(drawing: Any, names: Sequence[str], changed: Mapping[str, float]) -> 
         amend(mine, law=law)
         parameters |= law.numbers
         initial.append(law.initial)
-        units.append(UNITS.get(quantity) or ("rad/s" if element.coordinate == "angle" else "m/s"))
+        units.append(UNITS.get(quantity) or ("rad/s" if element.coordinate.startswith("angle") else "m/s"))
     return Driven(drawing._replace(elements=elements, parameters=parameters), initial, units)
 
 

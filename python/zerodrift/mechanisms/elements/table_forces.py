@@ -113,6 +113,8 @@ class TableForce(Fixed):
         In the plane, in the first body's frame.
     frames : tuple of ndarray (3, 3), or None
         In space: its directions as rows, in the frame of the first body and of the second.
+    which : str or None
+        The angle of a joint with several on which it acts.
     """
 
     kind = ""                                       # name in the core's tables
@@ -125,6 +127,7 @@ class TableForce(Fixed):
     values: Mapping[str, float] = MappingProxyType({})
     axis: np.ndarray | None = None
     frames: Any = None
+    which: str | None = None
 
     def __init_subclass__(cls) -> None:
         """Sets measures that the class does not define, from the entries of the core's tables."""
@@ -136,8 +139,8 @@ class TableForce(Fixed):
                 setattr(cls, name, measure)
 
     def __init__(self, name: str, *sides: Any, values: dict[str, float], axis: np.ndarray | None = None,
-                 frames: Any = None) -> None:
-        self.name = name
+                 frames: Any = None, which: str | None = None) -> None:
+        self.name, self.which = name, which
         if len(sides) == 1:
             self.joint, = sides
         else:
@@ -179,7 +182,8 @@ class TableForce(Fixed):
     @property
     def own(self) -> str:
         """Measure along which the law of a spring acts; empty for others."""
-        return "" if not self.row.is_spring else f"{self.joint.name}.angle" if self.joint else f"{self.name}.length"
+        return "" if not self.row.is_spring else f"{self.joint.name}.{self.which or 'angle'}" if self.joint else (
+            f"{self.name}.length")
 
     def length_with(self, numbers: Numbers) -> float:
         """Unstressed length; if not given, the distance in the drawing."""
@@ -216,8 +220,13 @@ class TableForce(Fixed):
         return columns.plain(apart[0] * x + apart[1] * y if quantity.zero == "along" else apart[1] * x - apart[0] * y)
 
     def __repr__(self) -> str:
-        where = f": {self.first.body.name} - {self.second.body.name}" if self.joint is None else f" at {self.joint.name}"
+        where = f": {self.first.body.name} - {self.second.body.name}" if self.joint is None else f" at {placed(self)}"
         return f"<{self.kind.replace('_', ' ')} {self.name}{where}>"
+
+
+def placed(element: Any) -> str:
+    """Name of the joint on which a motor or a spring acts, with that of the angle where it has several."""
+    return element.joint.name if element.which is None else f"{element.joint.name}.{element.which}"
 
 
 def made_force(kind: str) -> type[TableForce]:

@@ -143,7 +143,7 @@ class SpaceTables(Tables):
 
     def _element_quantities(self, element: TableForce) -> list[Quantity]:
         if element.joint is not None:
-            known = self.coordinate_quantity_of(element.joint, "angle")
+            known = self.coordinate_quantity_of(element.joint, element.which or "angle")
             return [known._replace(zero=element.zero(each, self.numbers)) for each in element.quantities]
         ends, bodies = list(map(self._end, element.ends)), (element.axes_of, getattr(element.ends[1], "body", element.ends[1]))
         near, far = ([self._direction(body, row) for row in (() if frame is None else frame)]

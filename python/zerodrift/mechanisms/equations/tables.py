@@ -242,7 +242,7 @@ class Tables:
 
     def _motor(self, motor: Motor) -> None:
         joint, coordinate = self.joint_number[motor.joint.name], f"{motor.joint.name}.{motor.coordinate}"
-        quantity, measured = self._quantity_of(coordinate), "torque" if motor.coordinate == "angle" else "force"
+        quantity, measured = self._quantity_of(coordinate), "force" if motor.coordinate == "displacement" else "torque"
         if motor.prescribes:
             index, words = len(self.relations), ("drive", "drive power")
             self._relation(motor.name, self._drive(motor, coordinate, quantity, joint))

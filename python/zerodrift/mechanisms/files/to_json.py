@@ -14,7 +14,7 @@ from ..building.table_verbs import FORCES
 from ..elements.bodies import Body, kind_of
 from ..elements.drawing import Drawing
 from ..elements.joints import JOINTS, Coupling
-from ..elements.table_forces import ELEMENTS, TableForce
+from ..elements.table_forces import ELEMENTS, TableForce, placed
 from .expressions_json import to_json
 from .space_to_json import IN_SPACE
 from .values_to_json import formula_to_json, law_to_json, numbers, place, sides
@@ -111,7 +111,7 @@ def _cam(coupling: Any, drawing: Drawing) -> dict[str, Any]:
 
 
 def _motor(motor: Any, drawing: Drawing) -> dict[str, Any]:
-    return {"joint": motor.joint.name, "drives": motor.drives, "law": law_to_json(motor.law)}
+    return {"joint": placed(motor), "drives": motor.drives, "law": law_to_json(motor.law)}
 
 
 def _actuator(actuator: Any, drawing: Drawing) -> dict[str, Any]:
@@ -133,7 +133,7 @@ def _measure(measure: Any, drawing: Drawing) -> dict[str, Any]:
 
 
 def _table_force(force: TableForce, drawing: Drawing) -> dict[str, Any]:
-    place: dict[str, Any] = sides(force, drawing) if force.joint is None else {"joint": force.joint.name}
+    place: dict[str, Any] = sides(force, drawing) if force.joint is None else {"joint": placed(force)}
     if force.axis is not None:
         place["axis"] = numbers(force.axis)
     if force.frames is not None:

@@ -14,7 +14,7 @@ from ..elements.drawing import Drawing
 from ..elements.forces import Actuator, Force, Motor
 from ..elements.joints import Joint
 from ..elements.numbers import AS_GIVEN
-from ..elements.table_forces import TableForce
+from ..elements.table_forces import TableForce, placed
 from ..equations.space_tables import tables_of
 from . import cost
 from .counting import Count, count
@@ -47,7 +47,7 @@ def report(drawing: Drawing) -> str:
     if counted.undetermined:
         lines.append(f" reactions not determined: {', '.join(counted.undetermined)}")
     lines += [f" {note}" for note in counted.notes]
-    driven = [f"{motor.joint.name} by {motor.name} ({motor.drives})" for motor in drawing.of(Motor)]
+    driven = [f"{placed(motor)} by {motor.name} ({motor.drives})" for motor in drawing.of(Motor)]
     driven += [f"{actuator.name} ({actuator.drives})" for actuator in drawing.of(Actuator)]
     if driven:
         lines.append(f" driven: {', '.join(driven)}")
