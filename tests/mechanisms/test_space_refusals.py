@@ -35,7 +35,7 @@ def drawing():
     (lambda m, link, *_: m.revolute("A", m.ground, link.start, axis=(0, 0, 0)), "geometry", "'A'"),
     (lambda m, link, *_: m.revolute("A", m.ground, link.start, axis=(0, 1)), "shape", "'A'"),
     (lambda m, link, *_: m.revolute("A", m.ground, link.start, axis=(0, 1, 0), damping=-1), "out-of-range", "'A'"),
-    (lambda m, link, *_: m.universal("A", m.ground, link.start, axes=((0, 0, 1), (0, 1, 1))), "geometry", "45"),
+    (lambda m, link, *_: m.universal("A", m.ground, link.start, axes=((0, 0, 1), (0, 0, -1))), "geometry", "parallel"),
     (lambda m, link, *_: m.universal("A", m.ground, link.start, axes=((0, 0, 1),)), "shape", None),
     (lambda m, link, *_: m.universal("A", m.ground, link.start, axes=3), "shape", None),
     (lambda m, link, *_: m.screw("A", m.ground, link.start, axis=(0, 0, 1), pitch=0), "out-of-range", "'A'.*be 0"),

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
 
 import zerodrift as zd
 from support import refused
@@ -32,7 +33,7 @@ def test_a_damped_ball_joint_slows_a_body_down_as_euler_says(layout, closed_form
 
 @pytest.mark.parametrize("layout", LAYOUTS)
 def test_a_damped_universal_joint_slows_both_angles_down(layout):
-    """Of a body with three equal moments the angles do not act on each other."""
+    """The angles of a body with three equal moments do not act on each other."""
     m, c, t = ball("universal", (0.4, 0.4, 0.4), axes=((1, 0, 0), (0, 0, 1)), damping=0.2), 0.2, 0.8
     m.start({"s.angle1_speed": 2.0, "s.angle2_speed": -3.0})
     sol = zd.simulate(m.system(layout), t, rtol=1e-11, atol=1e-12)
@@ -143,3 +144,65 @@ def test_drives_of_universal_joints_are_saved_and_say_which_angle(tmp_path):
         m.torsion_spring("other", "s", stiffness=1.0)
     with refused("prescribed-twice", "spin"):
         m.motor("other", m["s"].angle1, angle=0.0)
+
+
+SKEW = np.array([-0.25, 0.96, 0.1])
+
+
+def skew(layout, carried):
+    """A body on a skew cross, on the ground or on another body, with a drive on each angle."""
+    m = zd.Mechanism("skew", dimension=3, gravity=(0.2, -0.3, -9.81))
+    base = m.body("base", 2.0, (1.0, 1.2, 0.8)) if carried else m.ground
+    if carried:
+        m.spherical("socket", m.ground, base, at=(-0.3, 0.1, 0.0))
+    body = m.body("b", 1.0, INERTIA, at=(0.4, 0.1, 0), rotation=np.array([[0, 1, 0], [0, 0, 1], [1, 0, 0]]), com=(0.1, 0.2, 0))
+    u = m.universal("u", base, body, at=(0.3, 0, 0), axes=((1, 0, 0), SKEW), damping=0.1)
+    m.motor("drive", u.angle1, torque=lambda t: 0.5 * np.cos(t))
+    m.torsion_spring("spring", u.angle2, stiffness=2.0, damping=0.05)
+    return m, m.system(layout)
+
+
+@pytest.mark.parametrize("carried", [False, True])
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_a_skew_universal_joint_keeps_the_angle_of_its_axes_and_its_angles_are_turns_about_them(layout, carried):
+    """The rotation of the second body in the first is one about the first axis, then one about the second."""
+    sol = zd.simulate(skew(layout, carried)[1], 1.0, rtol=1e-11, atol=1e-12)
+    axis, normal = np.array([1.0, 0, 0]), SKEW / np.linalg.norm(SKEW)
+    drawn = np.array([[0, 1, 0], [0, 0, 1], [1, 0, 0]])
+    for k in (0, len(sol.t) // 2, -1):
+        R = sol["base.rotation"][k].reshape(3, 3) if carried else np.eye(3)
+        q1, q2 = sol["u.angle1"][k], sol["u.angle2"][k]
+        turned = Rotation.from_rotvec(q1 * axis) * Rotation.from_rotvec(q2 * normal)
+        assert sol["b.rotation"][k].reshape(3, 3) == pytest.approx(R @ turned.as_matrix() @ drawn, abs=1e-9)
+        rates = sol["u.angle1_speed"][k] * axis + sol["u.angle2_speed"][k] * Rotation.from_rotvec(q1 * axis).apply(normal)
+        spin = sol["b.angular_velocity"][k] - (sol["base.angular_velocity"][k] if carried else 0)
+        assert spin == pytest.approx(R @ rates, abs=1e-9)
+    assert abs(sol["u.angle1"][-1]) > 0.01
+
+
+@pytest.mark.parametrize("closed_form", [None, False])
+def test_a_skew_cross_moves_as_lagrange_says(closed_form):
+    """A body of three equal moments about its mass centre: both angles are coupled by the cosine of their axes alone."""
+    m = zd.Mechanism("skew", dimension=3)
+    body, cosine, J = m.body("b", 1.0, (0.5, 0.5, 0.5)), SKEW[0] / np.linalg.norm(SKEW), 0.5
+    u = m.universal("u", m.ground, body, at=(0, 0, 0), axes=((1, 0, 0), SKEW))
+    m.motor("drive", u.angle1, torque=2.0)
+    m.torsion_spring("spring", u.angle2, stiffness=3.0, angle=0.4)
+
+    def rates(t, y):
+        M = J * np.array([[1, cosine], [cosine, 1]])
+        return [*y[2:], *np.linalg.solve(M, [2.0, -3 * (y[1] - 0.4)])]
+
+    end = solve_ivp(rates, (0, 2), [0, 0, 0, 0], rtol=1e-12, atol=1e-13).y[:, -1]
+    sol = zd.simulate(m, 2.0, rtol=1e-11, atol=1e-12, closed_form=closed_form)
+    assert [sol[f"u.{each}"][-1] for each in ("angle1", "angle2", "angle1_speed", "angle2_speed")] == pytest.approx(end, abs=1e-8)
+
+
+def test_skew_joints_are_cut_and_saved(tmp_path):
+    m, _ = skew(None, True)
+    again = zd.load(m.save(tmp_path / "m"))
+    one, other = (each.system("absolute")._measuring.tables for each in (m, again))
+    assert one.joints == other.joints
+    assert again["u"].cut
+    with refused("geometry", "parallel"):
+        m.universal("flat", m.ground, m["b"], at=(0, 0, 0), axes=((1, 0, 0), (-1, 0, 0)))

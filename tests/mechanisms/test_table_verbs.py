@@ -79,7 +79,7 @@ def test_refusals_in_the_plane_name_what_is_wrong(call, code, text):
     (lambda m, a, b: m.revolute("A", a, b, at=(0, 0, 0)), "missing-argument", "'A'"),
     (lambda m, a, b: m.revolute("A", a, b, at=(0, 0, 0), axis=(0, 0, 1), damping=-1), "out-of-range", "'A'"),
     (lambda m, a, b: m.screw("A", a, b, axis=(0, 0, 1), pitch=0), "out-of-range", "'A'.*be 0"),
-    (lambda m, a, b: m.universal("A", a, b, at=(0, 0, 0), axes=((1, 0, 0), (1, 1, 0))), "geometry", "45"),
+    (lambda m, a, b: m.universal("A", a, b, at=(0, 0, 0), axes=((1, 0, 0), (-1, 0, 0))), "geometry", "parallel"),
     (lambda m, a, b: m.rod("A", a.center, b.center, length=0), "out-of-range", "'A'.*than 0"),
     (lambda m, a, b: m.spherical("A", a, b), "missing-argument", None)])
 def test_refusals_in_space_name_what_is_wrong(call, code, text):

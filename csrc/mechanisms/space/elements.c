@@ -80,14 +80,14 @@ static const zd_space_joint_kind joints[] = {
         .axes = 1, .takes_length = 1,
         .is_inboard = 1, .freedoms = 1, .freedom = {ADVANCES_ALONG_AXIS},
     },
-    /* Universal joint: the points of both bodies coincide, and an axis of the first stays perpendicular to a normal of the second. Its
+    /* Universal joint: the points of both bodies coincide, and an axis of the first keeps its angle to a normal of the second. Its
      * angles are those by which a massless cross with arms along these two is turned against the first body, and the second against the
      * cross. */
     {
-        .card = {.name = "universal", .summary = "Joins two bodies by a cross, with an axis on each that are perpendicular.",
+        .card = {.name = "universal", .summary = "Joins two bodies by a cross, with an axis on each.",
                  .equations = "(3), (5)"},
         .rows = 4,
-        .row = {POINT_ON_POINT, PERPENDICULAR(A, N)},
+        .row = {POINT_ON_POINT, {.pick = {.quantity = ZD_SPACE_COSINE, .of_first = A, .of_second = N, .zero = ZD_SPACE_ZERO_ALONG}}},
         .coordinate = {
             {"angle1", {.quantity = ZD_SPACE_ANGLE, .of_first = N, .of_second = N}},
             {"angle2", {.quantity = ZD_SPACE_ANGLE, .of_first = A, .of_second = A, .is_swapped = 1}},

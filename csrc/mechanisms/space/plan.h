@@ -37,7 +37,7 @@ typedef struct zd_carrying {
 typedef struct zd_unwrapped_angles {
     int count;
     zd_space_quantity *angle;          /* (count,) marker quantity of each angle */
-    zd_vector3 *axis;               /* (count,) in the axes of the marker quantity's first body */
+    zd_vector3 *axis;               /* (count,) in the axes of the marker quantity's first body; zero of a skew universal joint */
     int *joint, *place;             /* (count,) its joint, and its index in p */
 } zd_unwrapped_angles;
 
@@ -101,6 +101,8 @@ void zd_unwrapped_angles_create(zd_unwrapped_angles *self, zd_arena *arena, size
 void zd_unwrapped_angles_plan(zd_unwrapped_angles *self, int joints, const zd_space_joint *joint, int at);
 /* frame->angle <- all joint angles. */
 void zd_unwrapped_angles_read(const zd_space *space, const zd_space_frame *frame, const double *p);
+/* Direction in global axes along which the relative angular velocity is the rate of angle k. */
+zd_vector3 zd_unwrapped_angle_axis(const zd_space *space, const zd_space_frame *frame, int k);
 /* pdot (nq,) <- rates of all dependent angles at the velocities x (nv,), from placed bodies. */
 void zd_unwrapped_angles_rate(const zd_space *space, const zd_space_frame *frame, const double *x, double *pdot);
 /* Updates the dependent angles in p from the attitudes, keeping their full turns. */

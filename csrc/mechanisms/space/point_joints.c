@@ -39,7 +39,7 @@ static int count_rows(const zd_space *space, int row)
     if (rows < ZD_POINT_CONSTRAINTS || rows > ZD_POINT_JOINT_CONSTRAINTS) return 0;
     for (int k = 0; k < rows; k++) {
         const int kind = k < ZD_POINT_CONSTRAINTS ? ZD_SPACE_X + k : ZD_SPACE_COSINE;
-        if (quantity_of_row(space, row + k)->kind != kind) return 0;
+        if (quantity_of_row(space, row + k)->kind != kind || quantity_of_row(space, row + k)->zero != 0) return 0;
     }
     return rows;
 }

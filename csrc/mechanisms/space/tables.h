@@ -28,7 +28,7 @@ typedef struct zd_space_joint {
     double point1[3], point2[3];
     double frame1[3][3], frame2[3][3];  /* directions of the joint's frame in the axes of each body; they coincide in the zero position */
     double semiaxes[3];         /* m: of the rolling ellipsoid, along the directions of frame2 */
-    double along;               /* m: distance along the axis in the zero position */
+    double along;               /* m: distance along the axis in the zero position; of a universal joint the cosine between its axes */
     double length;              /* m of a rod; m/rad of a screw */
 } zd_space_joint;
 

@@ -2,7 +2,8 @@
  *
  *     angle' = (a x o) . (omega2 - omega1)
  *
- * where a x o is perpendicular to b, as it is if the joint is closed. The angle is atan2(o . b, a . b) plus the multiple of 2 pi that brings
+ * where a x o is perpendicular to b, as it is if the joint is closed; of a universal joint whose axes are not perpendicular the torque of
+ * the marker quantity stands for a x o. The angle is atan2(o . b, a . b) plus the multiple of 2 pi that brings
  * it nearest to the coordinate. This removes the error of the integrated rate in each step; turns are correct while it is below pi.
  */
 #include "plan.h"
@@ -32,7 +33,8 @@ void zd_unwrapped_angles_plan(zd_unwrapped_angles *self, int joints, const zd_sp
         for (int i = 0, angles = zd_unwrapped_angles_of(joint + j); i < ZD_SPACE_COORDINATES && self->count < before + angles; i++) {
             const zd_space_quantity quantity = zd_space_coordinate_quantity(joint + j, i, before);
             if (!quantity.counted) continue;
-            self->axis[self->count] = zd_cross3(zd_vector3_of(quantity.a), zd_vector3_of(quantity.o));
+            const int is_skew = angles == 2 && joint[j].along != 0;
+            self->axis[self->count] = zd_times3(!is_skew, zd_cross3(zd_vector3_of(quantity.a), zd_vector3_of(quantity.o)));
             self->joint[self->count] = j;
             self->place[self->count] = at + self->count;
             self->angle[self->count++] = quantity;
@@ -52,11 +54,19 @@ static zd_vector3 spin_of(const zd_space *space, const zd_space_frame *frame, in
     return zd_rotated3(&frame->pose[body].turned, zd_vector3_of(x + of->v + ZD_POINT_COORDINATES));
 }
 
+zd_vector3 zd_unwrapped_angle_axis(const zd_space *space, const zd_space_frame *frame, int k)
+{
+    const zd_space_quantity *angle = space->unwrapped.angle + k;
+    const zd_vector3 axis = space->unwrapped.axis[k];
+    if (!(zd_inner3(axis, axis) > 0)) return zd_space_quantity_wrenches(angle, frame->pose).second.torque;
+    return zd_rotated3(&frame->pose[angle->first].turned, axis);
+}
+
 void zd_unwrapped_angles_rate(const zd_space *space, const zd_space_frame *frame, const double *x, double *pdot)
 {
     for (int k = 0; k < space->unwrapped.count; k++) {
         const zd_space_quantity *angle = space->unwrapped.angle + k;
-        const zd_vector3 axis = zd_rotated3(&frame->pose[angle->first].turned, space->unwrapped.axis[k]);
+        const zd_vector3 axis = zd_unwrapped_angle_axis(space, frame, k);
         pdot[space->unwrapped.place[k]] = zd_inner3(axis, zd_minus3(spin_of(space, frame, angle->second, x),
                                                                     spin_of(space, frame, angle->first, x)));
     }

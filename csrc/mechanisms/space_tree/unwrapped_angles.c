@@ -12,7 +12,7 @@ void zd_space_tree_write_rates(const zd_space *space, const zd_space_frame *fram
     for (int k = 0; k < space->unwrapped.count; k++) {
         const zd_space_quantity *angle = space->unwrapped.angle + k;
         if (!follows(space, k)) continue;
-        const zd_vector3 axis = zd_rotated3(&frame->pose[angle->first].turned, space->unwrapped.axis[k]);
+        const zd_vector3 axis = zd_unwrapped_angle_axis(space, frame, k);
         const zd_space_reading rate = {.first = {.torque = zd_times3(-1, axis)}, .second = {.torque = axis}};
         zd_space_tree_act(space, frame, angle, 1, &rate, A + space->unwrapped.place[k] * zd_space_tree_of(space)->nv);
     }

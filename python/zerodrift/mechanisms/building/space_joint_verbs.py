@@ -12,7 +12,7 @@ from ...errors import WrongType, WrongValue
 from ..elements.bodies import Body, Point
 from ..elements.frames import perpendicular
 from ..elements.joints import draws_length
-from ..elements.space_joints import BY_KIND, SpaceJoint, has_torque, is_blade, swivels
+from ..elements.space_joints import BY_KIND, RIGHT_ANGLE, SpaceJoint, has_torque, is_blade, swivels
 from .registry import Elements
 
 Side = Body | Point | str
@@ -103,6 +103,9 @@ class SpaceJointVerbs(Elements):
             self._turning(name, "damping of", first.body, second.body)
         frame = np.eye(3) if axis is None else _frame(axis, normal)
         frames = tuple(np.stack([side.body.pose.local_direction(row) for row in frame]) for side in (first, second))
+        if joint.row.axes == 2 and abs(axis @ normal) > RIGHT_ANGLE:        # the second body has the given normal
+            own = np.stack([np.cross(normal, frame[2]), normal, frame[2]])
+            frames, cut = (frames[0], np.stack([second.body.pose.local_direction(row) for row in own])), True
         damping = checks.number(f"damping of {name!r}", damping, least=0)
         made = joint(name, first, second, frames=frames, length=length, damping=damping, cut=checked_cut(name, cut))
         if draws_length(joint.row):

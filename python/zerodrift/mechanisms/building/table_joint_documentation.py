@@ -20,7 +20,8 @@ WORDS = {
            "In space a direction in the drawing, made perpendicular to `along`; left out: against gravity, or z without gravity. "
            "The velocity of the point along ``cross(normal, along)`` is zero. This direction turns with the body: a body that "
            "leans takes it along. The joint does not keep the point on a plane."),
-    "axes": ("tuple of array_like (3,)", "Axis of the first body and axis of the second, perpendicular, in the drawing."),
+    "axes": ("tuple of array_like (3,)", "Axis of the first body and axis of the second in the drawing, not parallel. They keep "
+             "their angle; where that is not a right one, the joint is cut."),
     "normal": ("array_like (3,)", "Normal of the plane of the first body, in the drawing."),
     "at": ("array_like {size}", "Position of the joint in the drawing, in m.{origin}"),
     "pitch": ("float", "Advance of the second body along the axis per turn, in m; positive for a right-handed screw."),

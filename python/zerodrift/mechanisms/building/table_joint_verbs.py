@@ -21,7 +21,6 @@ ORDER = ("axis", "along", "axes", "normal", "pitch", "at", "length", "damping", 
 KINDS = {"name": "str", "first": "Side", "second": "Side", "point": "Side", "axes": "tuple[ArrayLike, ArrayLike]",
          "pitch": "float", "damping": "float", "cut": "bool"}
 INITIAL = {"at": None, "damping": 0.0, "cut": False}
-RIGHT_ANGLE = 1e-9      # cosine of the angle between two axes, at most
 
 
 def verb(plane: type[Joint] | None, space: type[SpaceJoint] | None = None) -> Callable[..., Joint]:
@@ -216,8 +215,6 @@ def _directions(m: Elements, joint: type[SpaceJoint], name: Any, given: Any) -> 
     if np.ndim(given) == 0 or len(given) != 2:
         raise WrongValue(f"axes of {name!r} must be two directions, one of the first body and one of the second", "shape")
     first, second = (m._direction(f"axes[{i}] of {name!r}", axis) for i, axis in enumerate(given))
-    cosine = float(first @ second)
-    if abs(cosine) > RIGHT_ANGLE:
-        raise WrongValue(f"axes of {name!r} must be perpendicular in the drawing, and are "
-                         f"{np.degrees(np.arccos(cosine)):.6g} degrees apart", "geometry")
+    if np.linalg.norm(np.cross(first, second)) < FLAT:
+        raise WrongValue(f"axes of {name!r} must not be parallel in the drawing", "geometry")
     return first, second

@@ -501,7 +501,7 @@ class TableVerbs(Elements):
 
     def universal(self, name: str, first: Side, second: Side, *, axes: tuple[ArrayLike, ArrayLike], at: ArrayLike | None = None,
                   damping: float = 0.0, cut: bool = False) -> SpaceUniversal:
-        """Joins two bodies by a cross, with an axis on each that are perpendicular.
+        """Joins two bodies by a cross, with an axis on each.
 
         Parameters
         ----------
@@ -509,7 +509,8 @@ class TableVerbs(Elements):
         first, second : Body, Point or name
             Two points; a body and a point; or two bodies, and `at`.
         axes : tuple of array_like (3,)
-            Axis of the first body and axis of the second, perpendicular, in the drawing.
+            Axis of the first body and axis of the second in the drawing, not parallel. They keep their angle; where that is not
+            a right one, the joint is cut.
         at : array_like (3,)
             Position of the joint in the drawing, in m.
         damping : float

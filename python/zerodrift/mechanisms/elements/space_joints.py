@@ -16,6 +16,7 @@ from .measures import scalar, vector
 from .numbers import AS_GIVEN, Numbers
 
 JOINTS = joint_kinds()
+RIGHT_ANGLE = 1e-9      # cosine of the angle between two axes, at most
 DIRECTIONS = ("axis", "normal", "third")
 
 
@@ -87,6 +88,12 @@ class SpaceJoint(Joint):
         """Offset of the second point from the first along the axis in the drawing, in m; its displacement counts from there."""
         apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
         return float(apart @ self.axis_as_drawn())
+
+    def skewness(self) -> float:
+        """Cosine of the angle between the axes of a universal joint; 0 for a right one."""
+        (first, second), (one, other) = self.bodies, self.frames
+        cosine = float(first.pose.direction(one[0]) @ second.pose.direction(other[1]))
+        return cosine if abs(cosine) > RIGHT_ANGLE else 0.0
 
     def row_named(self, component: int) -> Variable:
         """Name and unit of a constraint of the joint: displacement along an axis of the drawing or joint, or rotation."""

@@ -108,7 +108,10 @@ class Equations(Relations):
             if angle.place < self.nq - self.plan.followers:
                 continue
             relative = self.of.minus(*(self.bodies[body].spin for body in (angle.quantity.second, angle.quantity.first)))
-            self.A[angle.place] = self._row_of(self.graph.dot(self.frames.turned(angle.quantity.first, angle.axis), relative))
+            rate = self.graph.dot(self.frames.turned(angle.quantity.first, angle.axis), relative)
+            if angle.axis == self.of.none:      # of a skew universal joint
+                rate = self._reading(angle.quantity._replace(counted=0)).rate
+            self.A[angle.place] = self._row_of(rate)
 
     def _row_of(self, rate: Node) -> list[Node]:
         """Coefficients of v in a rate, (nv,)."""

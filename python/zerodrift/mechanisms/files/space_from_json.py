@@ -50,14 +50,14 @@ def _link(m: Any, name: str, *, start: Any, end: Any, rotation: Any, mass: Any, 
     amend(link, pose=Pose3(link.pose.origin, R), has_given_length=abs(link.length - drawn) > SAME * drawn)
 
 
-def frames_from_json(first: Point, second: Point, given: Any) -> tuple[np.ndarray, np.ndarray]:
-    """Frames (3, 3) of a joint in both bodies, checked to be equal in the drawing."""
+def frames_from_json(first: Point, second: Point, given: Any, same: slice = slice(3)) -> tuple[np.ndarray, np.ndarray]:
+    """Frames (3, 3) of a joint in both bodies, whose directions `same` are checked to be equal in the drawing."""
     if not isinstance(given, list) or len(given) != 2:
         raise WrongValue(f"frames must be two matrices, not {checks.shown(given)}", "unreadable-file")
     frames = _rotation("frames[0]", given[0]), _rotation("frames[1]", given[1])
     one, other = (frame @ side.body.pose.rotation.T       # type: ignore[attr-defined]
                   for frame, side in zip(frames, (first, second), strict=True))
-    if np.abs(one - other).max() > SAME:
+    if np.abs(one - other)[same].max() > SAME:
         raise WrongValue("frames must be the same in the drawing, that of the first body and that of the second",
                          "unreadable-file")
     return frames
@@ -67,12 +67,15 @@ def _joint(kind: str) -> Callable[..., None]:
     def make(m: Any, name: str, *, first: Any, second: Any, frames: Any, length: Any = None, damping: Any = 0.0,
              cut: Any = False) -> None:
         one, other = m._different(name, *(m._point("a side", place_from_json(m, side)) for side in (first, second)))
-        both = frames_from_json(one, other, frames)
-        if advances(BY_KIND[kind].row) and not checks.number("length", length):
+        row = BY_KIND[kind].row
+        both = frames_from_json(one, other, frames, slice(2 if row.axes == 2 else 0, 3))
+        axis, normal = (frame[i] @ side.body.pose.rotation.T for i, (frame, side) in enumerate(
+            zip(both, (one, other), strict=True)))
+        if advances(row) and not checks.number("length", length):
             raise WrongValue("length must not be 0: it is the pitch", "unreadable-file")
-        made: SpaceJoint = m._fasten(kind, m._new_name(name, "joint"), one, other, *(both[0][:2] @ one.body.pose.rotation.T),
+        made: SpaceJoint = m._fasten(kind, m._new_name(name, "joint"), one, other, axis, normal,
                                      length=None if length is None else checks.number("length", length), damping=damping)
-        amend(made, frames=both, cut=checks.instance("cut", cut, bool, "True or False"))
+        amend(made, frames=both, cut=checks.instance("cut", cut, bool, "True or False") or made.cut)
     return make
 
 

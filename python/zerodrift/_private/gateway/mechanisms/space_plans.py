@@ -116,5 +116,7 @@ def _angles(core: SpaceCore) -> tuple[Angle, ...]:
         for i, (_, kind) in enumerate(kinds[joint.kind].coordinates):
             if kind == "angle":
                 quantity = coordinate_quantity(joint, i, before)
-                angles.append(Angle(quantity, three(np.cross(quantity.a, quantity.o).tolist()), int(core._angle_at[len(angles)])))
+                is_skew = kinds[joint.kind].axes == 2 and joint.along != 0
+                axis = NONE if is_skew else three(np.cross(quantity.a, quantity.o).tolist())
+                angles.append(Angle(quantity, axis, int(core._angle_at[len(angles)])))
     return tuple(angles)
