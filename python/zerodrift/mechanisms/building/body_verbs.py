@@ -68,7 +68,7 @@ class BodyVerbs(Elements):
             if angle:
                 raise WrongValue(f"angle of {name!r} is for the plane: in space take rotation=", "wrong-dimension")
             turned = Pose3(at, given_rotation(f"rotation of {name!r}", rotation))
-            return self._add(SpaceBody(name, turned, mass, tensor(f"inertia of {name!r}", inertia), com))
+            return self._add(SpaceBody(name, turned, mass, tensor(f"inertia of {name!r}", inertia, mass), com))
         if rotation is not None:
             raise WrongValue(f"rotation of {name!r} is for mechanisms in space: in the plane take angle=", "wrong-dimension")
         pose = Pose(at, checks.number(f"angle of {name!r}", angle))
@@ -146,7 +146,7 @@ class BodyVerbs(Elements):
         rotation = np.stack([along, np.cross(z, along), z], axis=1)
         if thickness is not None:
             thickness = checks.number(f"thickness of {name!r}", thickness, above=0)
-        inertia = None if inertia is None else tensor(f"inertia of {name!r}", inertia)
+        inertia = None if inertia is None else tensor(f"inertia of {name!r}", inertia, mass)
         length = float(np.linalg.norm(end - start)) if length is None else length
         return SpaceLink(name, start, end, mass, length, rotation, thickness, inertia)
 

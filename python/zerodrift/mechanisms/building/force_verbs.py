@@ -33,7 +33,7 @@ class ForceVerbs(Elements):
 
     def motor(self, name: str, joint: Joint | Measure | str, *, angle: LawLike | None = None, displacement: LawLike | None = None,
               speed: LawLike | None = None, torque: LawLike | None = None, force: LawLike | None = None,
-              of: Bindings | None = None) -> Motor:
+              of: Bindings | None = None, rotor: float = 0.0, ratio: float = 1.0) -> Motor:
         """Drive a joint.
 
         Parameters
@@ -53,6 +53,13 @@ class ForceVerbs(Elements):
         of : dict of str to measure
             Measures that the callable receives, by argument name. The joint's own ``angle`` or ``displacement``, and ``speed``,
             need none: ``torque=lambda speed: 3 - 0.1 * speed``.
+        rotor : float
+            Moment of inertia J of the motor's rotor about the joint's axis in kg m^2: it adds the energy
+            ``J * (a.w1 + ratio * q')**2 / 2``, with the axis a, the first body's angular velocity w1, and q the joint's angle or,
+            in space, displacement. The rotor's mass and its transverse inertia are to be part of the first body. It is a body
+            without mass, ``"name rotor"``, that turns about ``"name shaft"`` by ``"name gear"``.
+        ratio : float
+            Angle of the rotor for q = 1, in rad/rad or rad/m; negative where it turns the other way.
 
         Returns
         -------
@@ -97,7 +104,25 @@ class ForceVerbs(Elements):
         if motor.prescribes and rival is not None:
             raise WrongValue(f"motors {rival.name!r} and {name!r} both prescribe {joint.name!r}: one freedom takes one motor",
                              "prescribed-twice")
+        if checks.number(f"rotor of motor {name!r}", rotor, least=0):
+            self._add_rotor(motor, rotor, ratio)
         return self._add(motor)
+
+    def _add_rotor(self: Any, motor: Motor, inertia: float, ratio: float) -> None:
+        """Add a body that turns on the first body about the joint's axis, geared to the coordinate that the motor drives."""
+        joint, at, axis = motor.joint, motor.joint.second.drawn, {}
+        if motor.which or (self.dimension == 2 and motor.coordinate != "angle"):
+            raise WrongValue(f"rotor of motor {motor.name!r} needs an axis that turns with the first body: an angle of one axis, or "
+                             "in space a displacement", "wrong-element")
+        if self.dimension == 3:
+            axis = {"axis": joint.axis_as_drawn()}
+            inertia = inertia * np.outer(axis["axis"], axis["axis"])
+        shaft = self.revolute(f"{motor.name} shaft", joint.bodies[0], self.body(f"{motor.name} rotor", 0.0, inertia, at=at), at=at,
+                              **axis)
+        if motor.coordinate == "angle":
+            self.gear(f"{motor.name} gear", joint, shaft, ratio=ratio)
+        else:
+            self.rack_pinion(f"{motor.name} gear", shaft, joint, ratio=1 / checks.number("ratio", ratio, above=-np.inf))
 
     def actuator(self, name: str, first: Point | Particle | str, second: Point | Particle | str, *, length: LawLike | None = None,
                  force: LawLike | None = None, of: Bindings | None = None) -> Actuator:

@@ -22,7 +22,7 @@ SYMMETRIC = 1e-9        # of the largest entry: asymmetry, at most
 PATHS = tuple(f"{AXES[i]}{AXES[j]}" for i in range(3) for j in range(i, 3))
 
 
-def tensor(argument: str, value: Any) -> np.ndarray:
+def tensor(argument: str, value: Any, mass: float) -> np.ndarray:
     """Inertia tensor (3, 3) from a tensor or its diagonal, checked; off-diagonal entries are minus the products of inertia."""
     shape = np.shape(value)
     if shape == () and checks.number(argument, value) == 0:
@@ -32,12 +32,12 @@ def tensor(argument: str, value: Any) -> np.ndarray:
                          "inertia")
     entries = checks.vector(argument, np.ravel(value), 3 if shape == (3,) else 9)
     J = np.diag(entries) if shape == (3,) else entries.reshape(3, 3)
-    check_tensor(argument, J)
+    check_tensor(argument, J, mass)
     return (J + J.T) / 2
 
 
-def check_tensor(argument: str, J: np.ndarray) -> None:
-    """Check that a tensor is the inertia of a body."""
+def check_tensor(argument: str, J: np.ndarray, mass: float) -> None:
+    """Check that a tensor is the inertia of a body, or without mass that of a rotor, about one axis alone."""
     apart = np.abs(J - J.T)
     if apart.max() > SYMMETRIC * np.abs(J).max():
         i, j = np.unravel_index(int(np.argmax(apart)), (3, 3))
@@ -46,7 +46,7 @@ def check_tensor(argument: str, J: np.ndarray) -> None:
     a, b, c = np.linalg.eigvalsh((J + J.T) / 2)
     if a < -TRIANGLE * abs(c):
         raise WrongValue(f"{argument} must have no negative moment, and about one of its axes it has {a:g} kg m^2", "inertia")
-    if c - a - b > TRIANGLE * c:
+    if c - a - b > TRIANGLE * c and (mass or b > TRIANGLE * c):
         raise WrongValue(f"{argument} must be that of a body: its largest moment, {c:g} kg m^2, is more than the sum of the two "
                          f"others, {a:g} and {b:g}; {_remedy(J)}", "inertia")
 
@@ -118,7 +118,7 @@ class SpaceBody(Body):
             i, j = AXES.index(path[0]), AXES.index(path[1])
             changed[i, j] = changed[j, i] = numbers(self, f"inertia.{path}", given[i, j])
         if not np.array_equal(changed, given):
-            check_tensor(f"inertia of {self.name!r}", changed)
+            check_tensor(f"inertia of {self.name!r}", changed, self.mass)
         return changed
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
