@@ -202,3 +202,90 @@ def test_equal_dampers_slow_a_ball_alike_in_all_directions():
         together = zd.ensemble(system, 1.5, parameters={"damper.torsion_damping.x": [0.2, 0.1, 0.2]}, step=0.01,
                                outputs=["ball.angular_velocity"])
         assert_close(together["ball.angular_velocity"][::2, -1], np.tile(w0 * np.exp(-3.0), (2, 1)), 1e-7)
+
+
+def symmetric(seed=5):
+    """A positive definite stiffness (6, 6) that couples all directions."""
+    rng = np.random.default_rng(seed)
+    root = rng.normal(size=(6, 6)) * np.array([12.0, 12.0, 12.0, 3.0, 3.0, 3.0])[:, None]
+    return root @ root.T
+
+
+def coupled_pair(K):
+    m = zd.Mechanism("pair", dimension=3)
+    one = m.body("one", 2.0, (0.3, 0.4, 0.5), rotation=R)
+    other = m.body("other", 1.0, (0.2, 0.1, 0.2), at=(0.4, 0.1, 0.0))
+    m.bushing("mount", one, other, at=(0.3, 0.2, -0.1), stiffness=K, damping=(0.3, 0.2, 0.1), torsion_damping=0.05)
+    m.start({"one.angular_velocity": (2.0, -1.0, 0.5), "other.velocity": (0.3, 0.5, -0.2)})
+    return m
+
+
+def energy_of(K, poses):
+    """x^T K x / 2 of the displacement and the rotation vector in the axes of the first body, as drawn with `coupled_pair`."""
+    (r1, R1), (r2, R2) = poses
+    place = np.array([0.3, 0.2, -0.1])
+    P, Q = r1 + R1 @ (R.T @ place), r2 + R2 @ (place - [0.4, 0.1, 0.0])
+    x = np.concatenate([R1.T @ (Q - P), Rotation.from_matrix(R1.T @ R2 @ R).as_rotvec()])
+    return x @ K @ x / 2, x
+
+
+@pytest.mark.parametrize("closed_form", [None, False])
+def test_a_coupled_stiffness_is_the_gradient_of_its_energy(closed_form):
+    """Forces and torques on both bodies by differences of x^T K x / 2, and the energy of a run."""
+    K = symmetric()
+    m = coupled_pair(K)
+    m.start({"other.position": (0.5, 0.0, 0.1), "other.rotation": about((0.3, -1, 2), 1.3)})
+    system = m.system("absolute")
+    sol = zd.simulate(system, 1e-3, step=1e-3, closed_form=closed_form)
+    poses = [(sol[f"{name}.position"][0], sol[f"{name}.rotation"][0].reshape(3, 3)) for name in ("one", "other")]
+
+    def varied(body, axis, h, turns):
+        d = np.eye(3)[axis] * h
+        moved = [tuple(pose) for pose in poses]
+        r, A = moved[body]
+        moved[body] = (r, Rotation.from_rotvec(d).as_matrix() @ A) if turns else (r + d, A)
+        return energy_of(K, moved)[0]
+
+    h = 1e-5
+    gradient = {(body, turns): np.array([(varied(body, i, h, turns) - varied(body, i, -h, turns)) / (2 * h) for i in range(3)])
+                for body in (0, 1) for turns in (False, True)}
+    Q = poses[1][0] + poses[1][1] @ (np.array([0.3, 0.2, -0.1]) - [0.4, 0.1, 0.0])
+    still = zd.simulate(coupled_at(m), 1e-6, step=1e-6, closed_form=closed_form)
+    force, about_com = still["mount.force"][0], still["mount.torque"][0] + np.cross(Q - poses[1][0], still["mount.force"][0])
+    assert_close(force, -gradient[1, False], 1e-7)
+    assert_close(about_com, -gradient[1, True], 1e-7)
+    assert_close(-force, -gradient[0, False], 1e-7)
+    assert_close(-(still["mount.torque"][0] + np.cross(Q - poses[0][0], force)), -gradient[0, True], 1e-7)
+
+
+def coupled_at(m):
+    """The same at rest, where dampers do nothing."""
+    m.start({"one.angular_velocity": (0, 0, 0), "other.velocity": (0, 0, 0), "other.angular_velocity": (0, 0, 0),
+             "one.velocity": (0, 0, 0)})
+    return m.system("absolute")
+
+
+@pytest.mark.parametrize("closed_form", [None, False])
+def test_energy_is_kept_with_a_coupled_stiffness(closed_form):
+    K = symmetric()
+    m = zd.Mechanism("free", dimension=3)
+    block = m.body("block", 2.0, (0.3, 0.4, 0.5), rotation=R)
+    m.bushing("mount", m.ground, block, at=(0, 0, 0), axis=R[:, 0], normal=R[:, 1], stiffness=K)
+    m.start({"block.angular_velocity": (2.0, -1.0, 0.5), "block.velocity": (0.3, 0.5, -0.2)})
+    sol = zd.simulate(m, 0.5, rtol=1e-13, atol=1e-14, closed_form=closed_form)
+    assert np.abs(sol.energy_violation).max() < 1e-12       # of 1.4 J
+
+
+def test_a_diagonal_matrix_is_a_bushing_as_before_and_others_are_saved(tmp_path):
+    m = zd.Mechanism("mount", dimension=3)
+    block = m.body("block", 2.0, (0.3, 0.4, 0.5))
+    K = symmetric()
+    for name, matrix in (("plain", np.diag([*STIFFNESS, *TORSION])), ("mixed", K)):
+        m.bushing(name, m.ground, block, at=(0, 0, 0), stiffness=matrix)
+    assert m["plain"].values == m.bushing("same", m.ground, block, at=(0, 0, 0), stiffness=STIFFNESS, torsion=TORSION).values
+    again = zd.load(m.save(tmp_path / "m"))
+    assert np.array_equal(again["mixed"].coupled, m["mixed"].coupled)
+    with refused("shape", "symmetric"):
+        m.bushing("skew", m.ground, block, at=(0, 0, 0), stiffness=K + np.eye(6, k=1))
+    with refused("conflicting-arguments", "torsion"):
+        m.bushing("twice", m.ground, block, at=(0, 0, 0), stiffness=K, torsion=1.0)

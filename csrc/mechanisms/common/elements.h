@@ -31,7 +31,7 @@ typedef struct zd_relation {
 } zd_relation;
 
 enum zd_force_kind {
-    ZD_FORCE_SPRING,           /* -stiffness x; each kind less damping xdot */
+    ZD_FORCE_SPRING,           /* -stiffness x, with x of its term, if it has one; each kind less damping xdot */
     ZD_FORCE_CONSTANT,         /* value */
     ZD_FORCE_LAW               /* user function of t, and of x and xdot of its terms */
 };

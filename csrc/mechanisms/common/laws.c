@@ -110,7 +110,7 @@ int zd_force_evaluate(const zd_planned_elements *elements, const zd_readings *at
         status = ask(elements, at, force->law, force->first, force->terms, t, 1);
         *value = at->out[0];
     } else if (force->kind == ZD_FORCE_SPRING) {
-        *value = -force->stiffness * zd_value_of(at, force->quantity);
+        *value = -force->stiffness * zd_value_of(at, force->terms ? elements->term[force->first].quantity : force->quantity);
     }
     *value -= force->damping * speed;
     return status;
@@ -154,7 +154,7 @@ double zd_springs_potential(const zd_planned_elements *elements, const zd_readin
     for (const zd_generalized_force *force = elements->force; force < elements->force + elements->forces; force++) {
         if (force->kind != ZD_FORCE_SPRING || force->stiffness == 0) continue;
         const double x = zd_value_of(at, force->quantity);
-        V += 0.5 * force->stiffness * x * x;
+        V += 0.5 * force->stiffness * x * (force->terms ? zd_value_of(at, elements->term[force->first].quantity) : x);
     }
     return V;
 }

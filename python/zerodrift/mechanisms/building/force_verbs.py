@@ -112,13 +112,13 @@ class ForceVerbs(Elements):
         """Add a body that turns on the first body about the joint's axis, geared to the coordinate that the motor drives."""
         joint, at, axis = motor.joint, motor.joint.second.drawn, {}
         if motor.which or (self.dimension == 2 and motor.coordinate != "angle"):
-            raise WrongValue(f"rotor of motor {motor.name!r} needs an axis that turns with the first body: an angle of one axis, or "
-                             "in space a displacement", "wrong-element")
+            raise WrongValue(f"rotor of motor {motor.name!r} needs an axis that turns with the first body: that of an angle, or in "
+                             "space of a displacement", "wrong-element")
         if self.dimension == 3:
             axis = {"axis": joint.axis_as_drawn()}
             inertia = inertia * np.outer(axis["axis"], axis["axis"])
-        shaft = self.revolute(f"{motor.name} shaft", joint.bodies[0], self.body(f"{motor.name} rotor", 0.0, inertia, at=at), at=at,
-                              **axis)
+        body = self.body(f"{motor.name} rotor", 0.0, inertia, at=at)
+        shaft = self.revolute(f"{motor.name} shaft", joint.bodies[0], body, at=at, **axis)
         if motor.coordinate == "angle":
             self.gear(f"{motor.name} gear", joint, shaft, ratio=ratio)
         else:

@@ -41,6 +41,7 @@ UNITS = {"stiffness": ("N/m", "N m/rad"), "damping": ("N s/m", "N m s/rad"), "to
 KINDS = {"name": "str", "first": "Side", "second": "Side", "joint": "Joint | Measure | str", "value": "LawLike",
          "force": "LawLike | None", "torque": "LawLike | None", "of": "Bindings | None"}
 NEEDED = inspect.Parameter.empty
+SYMMETRIC = 1e-9        # of the largest entry of a matrix: asymmetry, at most
 FLAT = 1e-6             # sine of the angle below which directions are parallel
 
 
@@ -109,12 +110,25 @@ def _add(m: Elements, force: type[TableForce], name: Any, given: dict[str, Any])
     place |= {"which": which} if (which := given.get("which")) else {}
     if entry.is_spring and law:
         _check_one(f"{what} {name!r}", law, given)
+    if np.shape(given.get("stiffness")) == (6, 6) and entry.axes == 3:
+        place |= {"coupled": coupled} if (coupled := _coupled(name, given)).any() else {}
     values = {path: value for word in parameters(entry) for path, value in _values(word, name, entry, given[word]).items()}
     element = force(name, *ends, values=values, **place)
     if given.get(law) is not None:
         amend(element, law=m._law(f"{law} of {what} {name!r}", given[law], given["of"], reactions=True,
                                   own=(element.joint or element) if entry.is_spring else None, which=element.which))
     return m._add(element)
+
+
+def _coupled(name: str, given: dict[str, Any]) -> np.ndarray:
+    """Stiffness between the directions of a bushing; the diagonal of the given matrix becomes `stiffness` and `torsion`."""
+    K = checks.vector(f"stiffness of {name!r}", np.ravel(given["stiffness"]), 36).reshape(6, 6)
+    if np.any(given["torsion"]):
+        raise WrongType(f"torsion of {name!r} is part of stiffness=, a matrix", "conflicting-arguments")
+    if np.abs(K - K.T).max() > SYMMETRIC * np.abs(K).max():
+        raise WrongValue(f"stiffness of {name!r} must be symmetric", "shape")
+    given["stiffness"], given["torsion"] = np.split(np.diag(K), 2)
+    return (K + K.T) / 2 - np.diag(np.diag(K))
 
 
 def _check_one(what: str, law: str, given: dict[str, Any]) -> None:

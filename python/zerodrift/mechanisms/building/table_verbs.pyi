@@ -628,7 +628,9 @@ class TableVerbs(Elements):
         It is slack as drawn. In space the angles about its directions are the components of the rotation vector: the unit axis
         about which the second body has rotated, as seen from the first, times the angle. The angle is counted up to half a
         turn, where the torque of its stiffness changes its sign; in the plane it is counted on. Dampers about the directions
-        act on the components of the relative angular velocity.
+        act on the components of the relative angular velocity. In space `stiffness` may be a symmetric matrix K (6, 6),
+        `torsion` included: with x the displacements along its directions and the rotation vector, force and torque are minus
+        the gradient of x^T K x / 2, so that positive definite ones restore.
 
         Parameters
         ----------

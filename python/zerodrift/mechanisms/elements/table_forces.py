@@ -115,6 +115,8 @@ class TableForce(Fixed):
         In space: its directions as rows, in the frame of the first body and of the second.
     which : str or None
         The angle of a joint with several on which it acts.
+    coupled : ndarray (6, 6) or None
+        Stiffness of a bushing in space between its directions; the diagonal, which is in `values`, is zero.
     """
 
     kind = ""                                       # name in the core's tables
@@ -128,6 +130,7 @@ class TableForce(Fixed):
     axis: np.ndarray | None = None
     frames: Any = None
     which: str | None = None
+    coupled: np.ndarray | None = None
 
     def __init_subclass__(cls) -> None:
         """Sets measures that the class does not define, from the entries of the core's tables."""
@@ -139,8 +142,8 @@ class TableForce(Fixed):
                 setattr(cls, name, measure)
 
     def __init__(self, name: str, *sides: Any, values: dict[str, float], axis: np.ndarray | None = None,
-                 frames: Any = None, which: str | None = None) -> None:
-        self.name, self.which = name, which
+                 frames: Any = None, which: str | None = None, coupled: np.ndarray | None = None) -> None:
+        self.name, self.which, self.coupled = name, which, coupled
         if len(sides) == 1:
             self.joint, = sides
         else:
@@ -200,7 +203,8 @@ class TableForce(Fixed):
     def given(self) -> dict[str, Any]:
         """Parameters of a spring as its method takes them: a number, or one for each marker quantity."""
         words = {word: [self.values[path] for path in each if path in self.values] for word, each in parameters(self.row).items()}
-        return {word: values if len(values) > 1 else values[0] for word, values in words.items() if values}
+        given = {word: values if len(values) > 1 else values[0] for word, values in words.items() if values}
+        return given if self.coupled is None else {**given, "coupled": self.coupled.tolist()}
 
     def zero(self, quantity: ElementQuantity, numbers: Numbers) -> float:
         """Offset of a marker quantity: its value as drawn, or the length or angle at which the element is slack."""

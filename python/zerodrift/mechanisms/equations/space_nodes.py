@@ -248,8 +248,10 @@ class Equations(Relations):
             value, rate = self.readings[force.quantity]
             said = self._law(force.law, force.inputs) if force.kind == "law" else force.value
             said = self.difference(said, graph.times(force.damping, rate))
-            self._push(f, self.difference(said, graph.times(force.stiffness, value)), rate)
-            V.append(graph.sum([(graph.product([(force.stiffness, 1), (value, 2)]), HALF)]))
+            other = self.readings[force.inputs[0]].value if force.kind == "spring" and force.inputs else value
+            self._push(f, self.difference(said, graph.times(force.stiffness, other)), rate)
+            x = [(value, 2)] if other is value else [(value, 1), (other, 1)]
+            V.append(graph.sum([(graph.product([(force.stiffness, 1), *x]), HALF)]))
             power.append(graph.times(said, rate))
         return {"f": [graph.plus(*terms) for terms in f], "V": [graph.plus(*V)], "power": [graph.plus(*power)]}
 

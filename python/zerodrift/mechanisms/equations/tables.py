@@ -319,18 +319,23 @@ class Tables:
     def _table_force(self, element: TableForce) -> None:
         """Add the generalized force along each marker quantity of an element, and its measures."""
         index, joint = len(self.forces), -1 if element.joint is None else self.joint_number[element.joint.name]
-        for i, quantity in [each for part in element.parts for each in enumerate(self._element_quantities(part))]:
+        every, size = [each for part in element.parts for each in enumerate(self._element_quantities(part))], 0
+        coupled = [] if element.coupled is None else [self._quantity(f"{element.name} {i}", each) for i, each in every]
+        for i, quantity in every:
             stiffness, damping = (self.numbers(element, path, element.values.get(path, 0.0)) for path in paths(element.row)[i])
             if element.law is not None:
                 number = self._quantity_of(element.own) if element.own else self._quantity(f"{element.name} {i}", quantity)
                 self._generalized_force(element.drives, number, element, element.row.sign, joint=joint, damping=damping)
                 continue
-            number = self._quantity(f"{element.name} {i}", quantity)
+            number = coupled[i] if coupled else self._quantity(f"{element.name} {i}", quantity)
+            self.forces += [entries.GeneralizedForce("spring", number, float(element.coupled[i, j]), inputs=[other])
+                            for j, other in enumerate(coupled) if element.coupled[i, j]]
             if quantity.kind == "rotation":         # damped by the angular velocity, not by the rate of the rotation vector
                 self.forces.append(entries.GeneralizedForce("spring", number, stiffness))
                 number, stiffness = self._quantity(f"{element.name} {i} turn", quantity._replace(kind="turn")), 0.0
             self.forces.append(entries.GeneralizedForce("spring", number, stiffness, damping, joint=joint))
-        self.observed += self._efforts(element, index)
+            size = len(self.forces) - index if i < lengths(element.row) else size
+        self.observed += self._efforts(element, index, size)
 
     def _element_quantities(self, element: TableForce) -> list[Any]:
         (first, point1), (second, point2) = map(self._end, element.ends)
@@ -348,9 +353,9 @@ class Tables:
         """Number of a body, and the point of it that a marker quantity belongs to."""
         return (self.number[end.name], (0.0,) * self.drawing.dimension) if isinstance(end, Body) else self.place(end)
 
-    def _efforts(self, element: TableForce, index: int) -> Iterator[OutputSpec]:
-        """Measures of the generalized forces of an element, of which the first has this index."""
-        entry, size = element.row, lengths(element.row)
+    def _efforts(self, element: TableForce, index: int, size: int) -> Iterator[OutputSpec]:
+        """Measures of the generalized forces of an element from this index on, of which `size` are along lengths."""
+        entry = element.row
         if entry.measure:
             sign = float(entry.sign)
             yield OutputSpec(f"{element.name}.{entry.measure}", UNITS[entry.measure], "force value", index, scale=sign)

@@ -240,6 +240,8 @@ def _table_force(force: type[TableForce], dimension: int) -> Callable[..., None]
             first, second = (m._point("a side", place) for place in places)
             stored["frames"] = frames_from_json(first, second, given.pop("frames"))
             given["axis"] = first.body.pose.direction(stored["frames"][0][0])
+        if coupled := given.pop("coupled", None):
+            given["stiffness"] = np.array(coupled, dtype=float) + np.diag([*given["stiffness"], *given.pop("torsion")])
         if law in given:
             given[law], given["of"] = law_and_of(given[law], law)
         amend(getattr(m, force.kind)(name, *places, **given), **stored)
@@ -248,7 +250,7 @@ def _table_force(force: type[TableForce], dimension: int) -> Callable[..., None]
     wanted = (*sides(force), *place, *parameters(entry), *([law] if law else ()))
     vars(make)["__signature__"] = inspect.Signature([
         inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, default=NEEDED if known.get(word, 0.0) is not None else None)
-        for word in wanted])
+        for word in wanted] + [inspect.Parameter("coupled", inspect.Parameter.KEYWORD_ONLY, default=None)] * (entry.axes == 3))
     return make
 
 
