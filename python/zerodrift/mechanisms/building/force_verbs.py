@@ -112,7 +112,7 @@ class ForceVerbs(Elements):
         """Add a body that turns on the first body about the joint's axis, geared to the coordinate that the motor drives."""
         joint, at, axis = motor.joint, motor.joint.second.drawn, {}
         if motor.which or (self.dimension == 2 and motor.coordinate != "angle"):
-            raise WrongValue(f"rotor of motor {motor.name!r} needs an axis that turns with the first body: that of an angle, or in "
+            raise WrongValue(f"rotor of motor {motor.name!r} needs an axis that turns with the first body: of an angle, or in "
                              "space of a displacement", "wrong-element")
         if self.dimension == 3:
             axis = {"axis": joint.axis_as_drawn()}

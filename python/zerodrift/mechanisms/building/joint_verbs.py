@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from ..._private import checks
 from ..._private.types import ArrayLike
-from ...errors import WrongValue
+from ...errors import WrongType, WrongValue
 from ..elements.bodies import Body, Point
 from ..elements.joints import Joint, Rolling
-from .space_joint_verbs import SpaceJointVerbs
+from .space_joint_verbs import TOUCHING, SpaceJointVerbs
 from .table_verbs import TableVerbs
 
 Side = Body | Point | str
@@ -26,8 +28,9 @@ class JointVerbs(TableVerbs, SpaceJointVerbs):
     gravity: Any
 
     def rolling(self, name: str, first: Body | str, second: Side, *, radius: float | None = None, at: ArrayLike | None = None,
-                normal: ArrayLike | None = None, axle: ArrayLike | None = None, semiaxes: ArrayLike | None = None) -> Joint:
-        """Let a wheel roll on a line without slipping; in space a disc, a sphere or an ellipsoid on a plane.
+                normal: ArrayLike | None = None, axle: ArrayLike | None = None, semiaxes: ArrayLike | None = None,
+                ring: float | None = None) -> Joint:
+        """Let a wheel roll on a line or a ring without slipping; in space a disc, a sphere or an ellipsoid on a plane.
 
         Parameters
         ----------
@@ -44,13 +47,17 @@ class JointVerbs(TableVerbs, SpaceJointVerbs):
             Normal of the line or plane in the drawing, towards the wheel; left out: against gravity, and without gravity y, in
             space z.
         axle : array_like (3,), optional
-            In space: axle of a disc in the drawing. It turns with the second body.
+            In space: axle of a disc in the drawing. It turns with the second body; with `ring` it is the ring's axis, too.
         semiaxes : array_like (3,), optional
             In space, instead of the radius: semiaxes of an ellipsoid along the axes of the second body's frame, in m.
+        ring : float, optional
+            Radius in m of a ring that is fixed to the first body, with its centre at `at`; the wheel rolls in it or around it, as
+            drawn. A body without mass, ``"name arm"``, turns about the centre on ``"name hub"`` and carries the wheel, which
+            ``"name gear"`` turns; all constraints are holonomic.
 
         Returns
         -------
-        Rolling, in space SpaceJoint
+        Rolling, in space SpaceJoint; with `ring` the hinge of the wheel on the arm
             Its force acts at the contact point. In space it has one holonomic and two nonholonomic constraints.
 
         Raises
@@ -66,6 +73,10 @@ class JointVerbs(TableVerbs, SpaceJointVerbs):
         >>> m.rolling("contact", m.ground, wheel, radius=0.5).force
         VectorMeasure('contact.force')
         """
+        if ring is not None:
+            if normal is not None or semiaxes is not None or (axle is None) != (self.dimension == 2):
+                raise WrongType(f"ring of {name!r} goes with radius=, at= and, in space, axle=", "conflicting-arguments")
+            return self._on_ring(name, first, second, radius, ring, at, {} if axle is None else {"axis": axle})
         if self.dimension == 3:
             return self._space_rolling(name, first, second, radius, at, normal, axle, semiaxes)
         if axle is not None or semiaxes is not None:
@@ -82,3 +93,23 @@ class JointVerbs(TableVerbs, SpaceJointVerbs):
         one, other = self._different(name, first.point(at=at), self._point("second", second))
         self._turning(name, "rolling", one.body, other.body)
         return self._add(Rolling(name, one, other, radius, one.body.pose.local_direction(normal)))
+
+    def _on_ring(self: Any, name: str, first: Any, second: Any, radius: Any, ring: Any, at: Any, axis: dict[str, Any]) -> Joint:
+        """Wheel on an arm without mass that turns about the centre of a ring, geared to the arm."""
+        radius = checks.number(f"radius of {name!r}", radius, above=0)
+        ring = checks.number(f"ring of {name!r}", ring, above=0)
+        first, second = self._body("first", first), self._named("second", second)
+        origin = np.zeros(self.dimension)
+        wheel = second.point(origin) if isinstance(second, Body) and second.turns else self._point("second", second)
+        at = self._drawn("at", origin if at is None else at)
+        distance = float(np.linalg.norm(wheel.drawn - at))
+        length = min(abs(ring - radius), ring + radius, key=lambda each: abs(each - distance))
+        if abs(length - distance) >= TOUCHING * length:
+            raise WrongValue(f"{name!r} has no contact as drawn: the centre of {wheel.body.name!r} must be "
+                             f"{abs(ring - radius):.6g} or {ring + radius:.6g} m from that of the ring, not {distance:.6g} m",
+                             "geometry")
+        arm = self.body(f"{name} arm", 0.0, at=at)
+        hub = self.revolute(f"{name} hub", first, arm, at=at, **axis)
+        joint = self.revolute(name, arm.point(at=at + length / distance * (wheel.drawn - at)), wheel, **axis)
+        self.gear(f"{name} gear", hub, joint, ratio=(ring if length == ring + radius else -ring) / radius)
+        return joint
