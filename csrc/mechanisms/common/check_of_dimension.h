@@ -1,6 +1,6 @@
 /* Checks of bodies, joints and marker quantities, one text for the plane and for space: compiled once by a source of each, which defines
  * OF(name), a name of its dimension; COMPONENTS of a point; INERTIAS and inertia_of() of a body; QUANTITIES, the number of kinds; LACKS, what
- * a particle does not have; may_be_inboard(), swings(), may_join_itself() of a kind of joint; and count_is_right() of a marker quantity. */
+ * a particle does not have; may_be_inboard() of a joint, swings(), may_join_itself() of its kind; and count_is_right() of a marker quantity. */
 static int is_particle(const OF(tables) *tables, int body) { return body && tables->body[body - 1].is_particle; }
 
 static int inboard_is_right(const OF(tables) *tables, int i, zd_complaint to)
@@ -11,7 +11,7 @@ static int inboard_is_right(const OF(tables) *tables, int i, zd_complaint to)
     const OF(joint) *joint = tables->joint + inboard;
     const OF(joint_kind) *kind = OF(joint_kind_of)(joint->kind);
     if (!zd_inboard_connects(body, inboard, joint->first, joint->second, to)) return 0;
-    if (!may_be_inboard(kind))
+    if (!may_be_inboard(kind, joint))
         return zd_complain(to, "body %d: its inboard joint %d must be of a kind for trees, not a %s", body, inboard, kind->card.name);
     if ((is_particle(tables, joint->first) && !swings(kind, 0)) || (is_particle(tables, joint->second) && !swings(kind, 1)))
         return zd_complain(to, "body %d: its inboard joint %d must not be a %s, as a particle has no " LACKS, body, inboard, kind->card.name);

@@ -9,7 +9,11 @@
 #define LACKS "angle"
 
 static const double *inertia_of(const zd_plane_body *body) { return &body->inertia; }
-static int may_be_inboard(const zd_plane_joint_kind *kind) { return kind->inboard != ZD_NOT_INBOARD; }
+static int may_be_inboard(const zd_plane_joint_kind *kind, const zd_plane_joint *joint)
+{
+    (void)joint;
+    return kind->inboard != ZD_NOT_INBOARD;
+}
 
 /* True if the joint turns about its point; `side` is of space. */
 static int swings(const zd_plane_joint_kind *kind, int side)

@@ -10,7 +10,11 @@
 #define LACKS "axes"
 
 static const double *inertia_of(const zd_space_body *body) { return body->inertia; }
-static int may_be_inboard(const zd_space_joint_kind *kind) { return kind->is_inboard; }
+/* A universal joint whose axes are not perpendicular, of which `along` is the cosine, closes a loop. */
+static int may_be_inboard(const zd_space_joint_kind *kind, const zd_space_joint *joint)
+{
+    return kind->is_inboard && (kind->axes < 2 || joint->along == 0);
+}
 
 /* True if the freedom next to the first or second body is a rotation about a point, which a particle, having no axes, cannot have. */
 static int swings(const zd_space_joint_kind *kind, int side)

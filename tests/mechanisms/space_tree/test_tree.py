@@ -25,7 +25,8 @@ def body(rng, inboard=-1, is_particle=False):
 
 def joint(rng, kind, first, second, particle=0):
     points = [(0.0, 0.0, 0.0) if particle and end == particle else tuple(rng.normal(size=3)) for end in (first, second)]
-    return Joint(KINDS[kind].number, first, second, *points, random_frame(rng), random_frame(rng), (0.3, 0.5, 0.8), 0.3, 0.2)
+    return Joint(KINDS[kind].number, first, second, *points, random_frame(rng), random_frame(rng), (0.3, 0.5, 0.8),
+                 0.0 if kind == "universal" else 0.3, 0.2)
 
 
 def with_forces(rng, bodies, joints):
