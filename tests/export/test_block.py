@@ -11,6 +11,7 @@ from scipy.special import ellipk
 
 import zerodrift as zd
 from every_model import IN_SPACE, MECHANISMS
+from mechanisms.every_element import coupled_bodies
 from support import called, refused
 from zerodrift._private import gateway
 from zerodrift._private.gateway.mechanisms.blocks import SECTIONS, VERSION, BlockCore
@@ -60,6 +61,11 @@ def test_also_in_absolute_coordinates(name):
     {"formulation": "nullspace", "stabilization": None, "integrator": "rattle"}])
 def test_methods_and_their_parameters_are_kept(settings):
     assert_bits(zd.models.four_bar().system(), **settings)
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_elements_between_bodies_in_space_have_their_bits(layout):
+    assert_bits(coupled_bodies().system(layout))
 
 
 def linkage(**drive):

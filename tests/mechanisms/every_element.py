@@ -81,3 +81,26 @@ def vehicles():
     kart = m.body("kart", 1.0, 0.1, at=(-5, 0))
     m.nonholonomic("steer", w - sp.sin(x) * y, of={"w": kart.angular_velocity, "x": kart.angle, "y": kart.velocity.x})
     return m
+
+
+def coupled_bodies():
+    """Bodies in space: damped, driven and skew swivels, forces against bodies and points, a rotor, a coupled bushing, a ring."""
+    t = sp.Symbol("t")
+    m = zd.Mechanism("coupled bodies", dimension=3, gravity=(0.3, 0.2, -9.81))
+    bodies = [m.body(f"B{i}", 1.0 + 0.2 * i, (0.3, 0.4 + 0.05 * i, 0.5), at=(0.5 * i, 0.1, 0.2 * i), com=(0.05, 0.02, 0.1 * i))
+              for i in range(5)]
+    m.spherical("socket", m.ground, bodies[0], at=(0, 0, 0.1), damping=0.2)
+    right = m.universal("right", bodies[0], bodies[1], at=(0.3, 0, 0.1), axes=((1, 0, 0), (0, 1, 1)), damping=0.1)
+    m.motor("drive", right.angle1, torque=sp.sin(3 * t))
+    skew = m.universal("skew", bodies[1], bodies[2], at=(0.8, 0, 0.3), axes=((1, 0, 0), (0.3, 1, 0)))
+    m.torsion_spring("coil", skew.angle2, stiffness=3.0, angle=0.2, damping=0.1)
+    hinge = m.revolute("hinge", bodies[2], bodies[3], at=(1.2, 0, 0.5), axis=(0, 1, 1))
+    m.motor("geared", hinge, torque=0.4, rotor=1e-3, ratio=12.0)
+    K = np.diag([200.0, 300, 250, 20, 30, 25]) + 5 * (np.eye(6, k=1) + np.eye(6, k=-1))
+    m.bushing("rubber", m.ground, bodies[4], at=(2.0, 0.1, 0.8), stiffness=K, damping=(1.0, 2.0, 3.0), torsion_damping=0.3)
+    near, far = bodies[0], bodies[4].center
+    for name, against, frame in (("drawn", near, None), ("own", near, near), ("pair", far, bodies[1])):
+        m.force(name, bodies[2].point((0.1, 0.2, 0.1)), along=(1, 2, -1), value=1.5 + t, against=against, frame=frame)
+    wheel = m.body("wheel", 0.5, (0.01, 0.01, 0.02), at=(5, 0.7, 0))
+    m.rolling("ring", m.ground, wheel, radius=0.3, ring=1.0, at=(5, 0, 0), axle=(0, 0, 1))
+    return m

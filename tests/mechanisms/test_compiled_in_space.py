@@ -10,6 +10,7 @@ import sympy as sp
 import zerodrift as zd
 from covering import spread
 from every_model import IN_SPACE
+from mechanisms.every_element import coupled_bodies
 from mechanisms.plain_space import Plain
 from mechanisms.test_compiled import TERM_ROUNDING, differences
 from mechanisms.test_files_of_space import everything
@@ -44,7 +45,8 @@ def random_one(seed):
     return Plain(np.random.default_rng(seed), 4, 2, "disc").m
 
 
-MADE = {"everything": everything, "everything as rows": all_cut, "random": lambda: random_one(1)}
+MADE = {"everything": everything, "everything as rows": all_cut, "random": lambda: random_one(1),
+        "coupled": coupled_bodies}
 
 
 def assert_same_terms(m):

@@ -71,5 +71,8 @@ def test_rotors_are_saved_and_refused_where_there_is_no_axis(tmp_path):
     track = flat.prismatic("track", flat.ground, flat.body("cart", 1.0, 0.1), axis=(1, 0))
     with refused("wrong-element", "rotor of motor 'drive'"):
         flat.motor("drive", track, force=1.0, rotor=0.1)
+    with refused("out-of-range", "ratio of motor 'idle'"):
+        m.motor("idle", pin, torque=1.0, rotor=0.01, ratio=0.0)
+    assert "idle rotor" not in m._elements
     with refused("inertia", "one axis|largest moment"):
         m.body("thin", 1.0, (0.0, 0.0, 1.0))

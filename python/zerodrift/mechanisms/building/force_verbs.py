@@ -111,6 +111,8 @@ class ForceVerbs(Elements):
     def _add_rotor(self: Any, motor: Motor, inertia: float, ratio: float) -> None:
         """Add a body that turns on the first body about the joint's axis, geared to the coordinate that the motor drives."""
         joint, at, axis = motor.joint, motor.joint.second.drawn, {}
+        if not checks.number(f"ratio of motor {motor.name!r}", ratio):
+            raise WrongValue(f"ratio of motor {motor.name!r} must not be 0", "out-of-range")
         if motor.which or (self.dimension == 2 and motor.coordinate != "angle"):
             raise WrongValue(f"rotor of motor {motor.name!r} needs an axis that turns with the first body: of an angle, or in "
                              "space of a displacement", "wrong-element")
@@ -122,7 +124,7 @@ class ForceVerbs(Elements):
         if motor.coordinate == "angle":
             self.gear(f"{motor.name} gear", joint, shaft, ratio=ratio)
         else:
-            self.rack_pinion(f"{motor.name} gear", shaft, joint, ratio=1 / checks.number("ratio", ratio, above=-np.inf))
+            self.rack_pinion(f"{motor.name} gear", shaft, joint, ratio=1 / ratio)
 
     def actuator(self, name: str, first: Point | Particle | str, second: Point | Particle | str, *, length: LawLike | None = None,
                  force: LawLike | None = None, of: Bindings | None = None) -> Actuator:

@@ -96,7 +96,7 @@ class JointVerbs(TableVerbs, SpaceJointVerbs):
 
     def _on_ring(self: Any, name: str, first: Any, second: Any, radius: Any, ring: Any, at: Any, axis: dict[str, Any]) -> Joint:
         """Wheel on an arm without mass that turns about the centre of a ring, geared to the arm."""
-        radius = checks.number(f"radius of {name!r}", radius, above=0)
+        name, radius = self._new_name(name, "joint"), checks.number(f"radius of {name!r}", radius, above=0)
         ring = checks.number(f"ring of {name!r}", ring, above=0)
         first, second = self._body("first", first), self._named("second", second)
         origin = np.zeros(self.dimension)
