@@ -1,6 +1,6 @@
 /* Checks of bodies, joints and marker quantities, one text for the plane and for space: compiled once by a source of each, which defines
  * OF(name), a name of its dimension; COMPONENTS of a point; INERTIAS and inertia_of() of a body; QUANTITIES, the number of kinds; LACKS, what
- * a particle does not have; may_be_inboard() of a joint, swings(), may_join_itself() of its kind; and count_is_right() of a marker quantity. */
+ * a particle does not have; may_be_inboard() of a joint, swings() and may_join_itself() of its kind; count_is_right() of a quantity. */
 static int is_particle(const OF(tables) *tables, int body) { return body && tables->body[body - 1].is_particle; }
 
 static int inboard_is_right(const OF(tables) *tables, int i, zd_complaint to)
