@@ -81,6 +81,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         if dimension not in (2, 3) or isinstance(dimension, bool):
             raise WrongValue(f"dimension must be 2, the plane, or 3, space, not {checks.shown(dimension)}", "wrong-dimension")
         self.name, self.dimension = name, int(dimension)
+        checks.constant("gravity", gravity, "give each body its weight by force(), such as value=lambda t: mass * g(t)")
         self.gravity = np.zeros(self.dimension) if gravity is None else checks.vector("gravity", gravity, self.dimension)
         super().__init__(parameters)
 

@@ -217,4 +217,7 @@ class BodyVerbs(Elements):
 
 
 def _amount(quantity: str, name: str, value: Any) -> float:
+    checks.constant(f"{quantity} of {name!r}", value,
+                    "what is lost or joins takes momentum along. Give the initial mass m0, and in each direction force(), whose "
+                    "value is (m0 - mass(t)) * a, with a the body's acceleration, and thrust and weight by others")
     return checks.number(f"{quantity} of {name!r}", value, least=0)

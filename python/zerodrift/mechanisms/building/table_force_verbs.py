@@ -42,6 +42,8 @@ KINDS = {"name": "str", "first": "Side", "second": "Side", "joint": "Joint | Mea
          "force": "LawLike | None", "torque": "LawLike | None", "of": "Bindings | None"}
 NEEDED = inspect.Parameter.empty
 SYMMETRIC = 1e-9        # of the largest entry of a matrix: asymmetry, at most
+HINT = ("its potential is one of positions alone; give force= of a spring, such as lambda t, length: k(t) * (length - 0.3), or "
+        "torque= of a torsion spring, lambda t, angle: -k(t) * angle")
 FLAT = 1e-6             # sine of the angle below which directions are parallel
 
 
@@ -200,6 +202,8 @@ def _values(word: str, name: str, entry: ElementKind, given: Any) -> dict[str, f
     """Values of a parameter by path, from one number for all of its marker quantities or one for each."""
     if given is None:
         return {}
+    if word in ("stiffness", "torsion"):
+        checks.constant(f"{word} of {name!r}", given, HINT)
     paths = parameters(entry)[word]
     each = np.broadcast_to(given, len(paths)) if np.ndim(given) == 0 and len(paths) > 1 else given
     numbers = [each] if np.ndim(each) == 0 else checks.vector(f"{word} of {name!r}", each, len(paths)).tolist()
