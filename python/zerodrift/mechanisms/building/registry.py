@@ -209,7 +209,7 @@ class Elements:
         angles = getattr(joint, "angles", ()) if isinstance(joint, Joint) and joint.coordinate is None else ()
         if which in angles and "angle" in coordinate and self._is_own(joint):
             return joint, which if which != "angle" else None
-        if len(angles) > 1:
+        if len(angles) > 1 and "angle" in coordinate:
             raise WrongValue(f"{argument} must say which angle of {joint.name!r}: "
                              f"{' or '.join(f'{joint.name}.{each}' for each in angles)}", "wrong-element")
         return self._joint(argument, value, coordinate), None
