@@ -33,21 +33,22 @@ static int make_step(zd_run *run, int plain)
     return status || run->stepper.t == loop->end ? status : plain ? zd_step(loop) : take_step(run);
 }
 
-static int save(zd_run *run, zd_record *record)
+static int save(zd_run *run, zd_record *record, int forced)
 {
     const zd_settings *settings = &run->settings;
-    if (!settings->t_eval && !zd_step_loop_is_due(&run->loop, settings->save_every)) return ZD_DONE;
-    int status = settings->t_eval ? zd_output_after(&run->output, record, run->watch.ended) : zd_recorder_add(&run->recorder, record);
+    if (!settings->t_eval && !forced && !zd_step_loop_is_due(&run->loop, settings->save_every)) return ZD_DONE;
+    int status = settings->t_eval ? zd_output_after(&run->output, record, zd_watch_ends(&run->watch))
+                                  : zd_recorder_add(&run->recorder, record);
     run->output.is_waiting = status == ZD_FULL;
     return status;
 }
 
-/* Saves the sample of the start, or the one for which the previous record had no room. */
+/* Saves the sample of a start, or the one for which the previous record had no room. */
 static int begin(zd_run *run, zd_record *record)
 {
     if (!record || (run->tally.start_saved && !run->output.is_waiting)) return ZD_DONE;
     run->tally.start_saved = 1;
-    return save(run, record);
+    return save(run, record, 1);
 }
 
 static int has_all_samples(const zd_run *run)
@@ -70,7 +71,7 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds)
         }
         status = make_step(run, plain);
         if (!status) status = zd_point_check_domain(run->motion.point, errors * run->settings.rtol, errors * run->settings.atol);
-        if (!status && record) status = save(run, record);
+        if (!status && record) status = save(run, record, 0);
     }
     return status == ZD_FULL ? status : zd_run_finish(run, status);
 }

@@ -99,7 +99,8 @@ static int locate_event(zd_watch *self, int event, int most, double *end)
         *it = (zd_occurrence){event, k, bracket_of(self, event, k - 1, k)};
         int status = locate(self, it);
         if (status) return status;
-        if (self->found[event] + ++number != events->terminal[event] || it->bracket.b >= *end) continue;
+        const int is_last = self->found[event] + ++number == events->terminal[event] || events->terminal[event] == ZD_EACH;
+        if (!is_last || it->bracket.b >= *end) continue;
         *end = it->bracket.b;
         self->ended = event + 1;
         self->last = self->occurrences - 1;
@@ -121,7 +122,8 @@ static int cut(zd_watch *self, double *end)
 {
     zd_output *output = self->output;
     zd_occurrence last = self->occurrence[self->last];
-    const int earlier = self->events->terminal[last.event] - self->found[last.event] - 1;
+    const int stops = self->events->terminal[last.event] == ZD_EACH;
+    const int earlier = stops ? 0 : self->events->terminal[last.event] - self->found[last.event] - 1;
     last.bracket = widened(self, &last);
     output->is_prepared = 0;
     int status = locate(self, &last);

@@ -5,7 +5,12 @@
  */
 #include "watch.h"
 
+#include <math.h>
+
+#include "../linalg/small.h"
 #include "../point/point.h"
+
+static const double SMALL_CHANGE = 0x1p-20;     /* of coordinates and velocities, by which an event function is seen to rise or to fall */
 
 static int is_fixed(const zd_watch *self)
 {
@@ -48,6 +53,36 @@ static int find_rates(const zd_watch *self, zd_end_rates *rates)
     zd_copy_all(point->system->nv, point->vdot, rates->vdot);
     rates->are_known = 1;
     return ZD_DONE;
+}
+
+/* *value <- the event function where the motion would be after a time s at the present rates */
+static int value_after(zd_watch *self, int event, const zd_end_rates *rates, double s, double *value)
+{
+    const zd_stepper *stepper = self->output->stepper;
+    const zd_point *point = stepper->motion->point;
+    zd_state *there = &self->mixed;
+    there->t = stepper->t + s;
+    for (int i = 0; i < point->system->nq; i++) there->p[i] = point->p[i] + s * rates->pdot[i];
+    for (int i = 0; i < point->system->nv; i++) there->v[i] = point->v[i] + s * rates->vdot[i];
+    return zd_watch_evaluate_at(self, event, there, value);
+}
+
+int zd_watch_arm(zd_watch *self)
+{
+    const int event = self->disarmed - 1;
+    const zd_system *system = &self->output->stepper->motion->system;
+    zd_end_rates rates = {self->early.p, self->late.v, 0};
+    double *value = &self->before[event], ahead = 0, behind = 0, now = 0, rounding = 0;
+    int status = find_rates(self, &rates);
+    self->disarmed = 0;
+    if (status) return status;
+    const double s = SMALL_CHANGE / fmax(1, fmax(zd_max_abs(system->nq, rates.pdot), zd_max_abs(system->nv, rates.vdot)));
+    status = value_after(self, event, &rates, s, &ahead);
+    if (!status) status = value_after(self, event, &rates, -s, &behind);
+    if (!status) status = zd_watch_evaluate(self, event, &now);
+    if (!status) status = zd_watch_rounding(self, event, now, &rounding);
+    *value = fabs(ahead - behind) > rounding ? ahead - behind : 0;
+    return status;
 }
 
 void zd_watch_before(zd_watch *self)

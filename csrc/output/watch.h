@@ -32,6 +32,7 @@ typedef struct zd_watch {
     int *found;             /* (events,) number of occurrences */
     int failed;             /* 1 + index of an event that could not be evaluated; 0: none */
     int ended;              /* 1 + index of the event that ended the run; 0: none */
+    int disarmed;           /* 1 + index of the event from which the next step begins; 0: none */
 } zd_watch;
 
 /* Value of an event function at the point, whose accelerations are computed if it reads them; those of all events. */
@@ -45,11 +46,17 @@ void zd_perturb(int n, const double *x, unsigned seed, double *perturbed);
 /* Change of an event function when the state at the point changes by its rounding. */
 int zd_watch_rounding(zd_watch *self, int event, double value, double *rounding);
 
+/* True at an event that ends the run, not one that stops an advance. */
+static inline int zd_watch_ends(const zd_watch *self) { return self->ended && self->events->terminal[self->ended - 1] != ZD_EACH; }
+
 /* Samples of event functions within a step. */
 
 /* y (n,) <- the cubic Hermite polynomial of a step of size h, at a fraction x of it */
 void zd_interpolate_cubic(int n, double x, double h, const double *y0, const double *rate0, const double *y1, const double *rate1,
                           double *y);
+/* Sets the value of the disarmed event function at the start of the next step to its change there, where it is zero but for rounding: its zero is not
+ * an event, but its return to zero is. */
+int zd_watch_arm(zd_watch *self);
 /* Evaluates the rates at the start of a fixed step; without them, events are sought by the ends of the step alone. */
 void zd_watch_before(zd_watch *self);
 /* Applies all corrections at the point. */

@@ -9,6 +9,7 @@
 #include "../linalg/small.h"
 #include "../paths/path.h"
 #include "../state/stepper.h"
+#include "../step_limits.h"
 
 static int is_fixed(const zd_run *run) { return run->settings.steps == ZD_FIXED_STEPS; }
 
@@ -40,18 +41,37 @@ static void set_goal_time(zd_run *run, double t)
     loop->steps = is_fixed(run) ? last : 0;
 }
 
+/* Lets a run with an end go on from an event: to that end, and a fixed step by a short one to where it would have ended. */
+static void aim_at_end(zd_run *run)
+{
+    zd_step_loop *loop = &run->loop;
+    const double size = run->settings.step, grid = loop->t_begin + (double)(loop->step - loop->steps_before) * size;
+    loop->end = run->settings.t1;
+    if (is_fixed(run) && fmin(grid, loop->end) - run->stepper.t > ZD_TIME_RESOLUTION * fmax(fabs(loop->t_begin), fabs(grid))) loop->step--;
+}
+
+/* After a terminal event, which is terminal again, once its function has left zero. */
+static void leave_event(zd_run *run)
+{
+    zd_watch *watch = &run->watch;
+    const int event = watch->ended - 1;
+    if (run->outcome.status == ZD_EVENT) run->outcome = (zd_outcome){.status = ZD_DONE};
+    if (event < 0) return;
+    watch->found[event] = watch->ended = 0;
+    watch->disarmed = event + 1;
+    if (!run->settings.is_open) aim_at_end(run);
+}
+
 int zd_run_set_goal(zd_run *run, int64_t steps, double t)
 {
-    const int64_t made = run->loop.step;
     if (!(t >= run->stepper.t) || steps < 0) return ZD_BAD_ARGUMENT;
     if (run->settings.is_open) {
         if (!run->outcome.status) run->outcome.message[0] = '\0';
-        else if (run->outcome.status == ZD_EVENT) run->outcome = (zd_outcome){.status = ZD_DONE};
         begin_anew(run);
         zd_run_remove_end(run);
-        if (run->watch.ended) run->watch.found[run->watch.ended - 1] = 0;      /* it is terminal again */
-        run->watch.ended = 0;
     }
+    leave_event(run);
+    const int64_t made = run->loop.step;
     run->goal.step = steps < INT64_MAX - made ? made + steps : INT64_MAX;
     if (t < INFINITY) set_goal_time(run, t);
     return ZD_DONE;
@@ -67,7 +87,8 @@ static void save_good(zd_run *run)
 int zd_run_begin_step(zd_run *run)
 {
     if (run->settings.is_open) save_good(run);
-    return run->settings.inputs ? zd_inputs_begin_step(run) : ZD_DONE;
+    const int status = run->settings.inputs ? zd_inputs_begin_step(run) : ZD_DONE;
+    return status || !run->watch.disarmed ? status : zd_watch_arm(&run->watch);
 }
 
 static int return_to_good(zd_run *run)

@@ -85,6 +85,8 @@ size_t zd_run_start_memory(const zd_run *run);      /* bytes of temporary memory
 int zd_run_start_elsewhere(zd_run *run, void *memory, const void *data, const double *p0, const double *v0);
 /* Measures sizes anew at the present point, and compares positions with them: the largest violation, and true if a start may have it. */
 int zd_start_measure(zd_run *run, double *violation, int *is_allowed);
+/* Checks that a start satisfies the constraints within the tolerance; Psi (m,) is overwritten. */
+int zd_start_check(zd_run *run, double *Psi);
 
 /* Inputs of a run. */
 

@@ -73,8 +73,7 @@ int zd_start_measure(zd_run *run, double *largest, int *is_allowed)
     return status;
 }
 
-/* Checks that the start satisfies the constraints within the tolerance. */
-static int check_constraints(zd_run *run, double *Psi)
+int zd_start_check(zd_run *run, double *Psi)
 {
     zd_point *point = run->motion.point;
     const zd_system *system = &run->motion.system;
@@ -97,7 +96,7 @@ static int check_constraints(zd_run *run, double *Psi)
 static int check_fitting_speeds(zd_run *run, double *Psi)
 {
     int status = zd_speeds_fit(run, Psi);
-    if (!status) status = check_constraints(run, Psi);
+    if (!status) status = zd_start_check(run, Psi);
     if (status) return status;
     run->outcome.message[0] = '\0';
     if (run->settings.inputs->jumps) return ZD_DONE;
@@ -107,7 +106,7 @@ static int check_fitting_speeds(zd_run *run, double *Psi)
 
 static int check_state(zd_run *run, double *Psi)
 {
-    const int status = check_constraints(run, Psi);
+    const int status = zd_start_check(run, Psi);
     return status == ZD_BAD_START && zd_inputs_have_speeds(run->settings.inputs) ? check_fitting_speeds(run, Psi) : status;
 }
 
@@ -264,7 +263,7 @@ static workspace lay_out(zd_arena *arena, const zd_run *run)
 static int start(zd_run *run, int status, const workspace *work, const double *p0, const double *v0)
 {
     if (status == ZD_BIFURCATION || status == ZD_CONTRADICTION) {       /* an inconsistent start is reported first */
-        int violated = check_constraints(run, work->Psi);
+        int violated = zd_start_check(run, work->Psi);
         return violated ? violated : status;
     }
     if (!status) status = zd_stepper_set_state(&run->stepper, run->settings.t0, p0, v0);
@@ -291,7 +290,7 @@ static int choose_step_directly(zd_run *run, double *states, const double *p0, c
 static int check_elsewhere(zd_run *run, const workspace *work, const double *p0, const double *v0)
 {
     zd_motion *motion = &run->motion;
-    int status = zd_point_is_finite(motion->point) ? check_constraints(run, work->Psi) : ZD_NOT_FINITE;
+    int status = zd_point_is_finite(motion->point) ? zd_start_check(run, work->Psi) : ZD_NOT_FINITE;
     if (!status) status = zd_point_check_domain(motion->point, 0, 0);
     if (!status) status = check_mass(run, work->factor);
     if (!status) status = check_tolerance(run);

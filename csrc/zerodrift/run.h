@@ -100,6 +100,9 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds);
  * present time. Fixed steps reach a time within rounding of a whole number of steps as t0 + k step; otherwise the last one is shortened, and
  * further steps are counted from there. Adaptive steps end at t. */
 int zd_run_set_goal(zd_run *run, int64_t steps, double t);
+/* Moves the run to another state at its time, which must satisfy the constraints: ZD_BAD_START. The balance (28) is of the energy
+ * from there on, and the next sample is that of this state. */
+int zd_run_set_state(zd_run *run, const double *p, const double *v);
 /* zd_run_set_goal() at a number of steps, and zd_run_advance() for a time slice: ZD_PAUSED after that, to be advanced further. */
 int zd_run_step(zd_run *run, int64_t steps, zd_record *record);
 /* The present state: time, p (nq,), v (nv,). The pointers stay valid as long as the run. */

@@ -29,7 +29,8 @@ typedef struct zd_event {
 typedef struct zd_events {
     int count;
     const int *direction;   /* (count,) 1: from below, -1: from above, 0: either */
-    const int *terminal;    /* (count,) the run ends at this occurrence of the event, counted from 1; 0: never */
+    const int *terminal;    /* (count,) the run ends at this occurrence of the event, counted from 1; 0: never. ZD_EACH: an advance stops
+                             * at each, and zd_run_set_goal() lets it go on */
     const zd_event *known;  /* (count,) what the core reads and evaluates; NULL: all are evaluated by the callback */
     const zd_system *of;    /* system whose measures are read; NULL: the simulated system */
     void *data;
@@ -85,6 +86,7 @@ typedef struct zd_parameter_values {
 enum zd_on_singular { ZD_STOP, ZD_CONTINUE };
 
 /* Sizes of steps: given, or by the error estimate of the integrator. */
+enum { ZD_EACH = -1 };
 enum zd_steps { ZD_FIXED_STEPS, ZD_ADAPTIVE_STEPS };
 
 typedef struct zd_settings {

@@ -218,7 +218,8 @@ def simulate(
     given, inputs, speeds, of, save_to, progress, on_failure = _read(step, t_eval, **settings)
     ready = prepared(system, checks.span(t_span), p0, v0, events, outputs, save_to, given, inputs=inputs, speeds=speeds)
     with recording.locked(ready.path), Keyboard(*gateway.CALLBACK_CODE, _show.__code__, called.__code__) as keyboard:
-        controlled = Run.of(ready, of) if of or inputs else None
+        acts = any(each.then is not None for each in ready.events or ())
+        controlled = Run.of(ready, of) if of or inputs or acts else None
         run = controlled._core if controlled else ready.created()
         record = ready.record(run)
         outcome = _drive(run, record, progress, keyboard, controlled)
@@ -246,7 +247,7 @@ def _drive(run: gateway.Run, record: gateway.Record, progress: Any, keyboard: Ke
             record.keep()
             if controlled:
                 controlled._note_jump()
-            if controlled and status == gateway.DONE and controlled._goes_on():
+            if controlled and controlled._goes_on(status):
                 status = gateway.PAUSED
             if sum(run.calls.values()) > limit:
                 limit = math.inf

@@ -90,7 +90,8 @@ def zd_interrupted_in_python(owner: Any) -> int:
 class Watcher:
     """Evaluation of the events of one run, called by the core; stores the states of their occurrences.
 
-    An event is a row with `direction` and `terminal`, as the core's `zd_events` has them; `known`, which the core reads, or None;
+    An event is a row with `direction` and `terminal`, as the core's `zd_events` has them, `then`, with which an advance stops at
+    each occurrence; `known`, which the core reads, or None;
     and, unless the core evaluates it itself, `value(t, p, v, x)` of what is read. Measures are those of the system `of`, which
     has the equations of `core`.
     """
@@ -102,8 +103,9 @@ class Watcher:
         self._of = None if of is None or not is_measured or of is core else of if is_own else of.for_run()
         self.found: tuple[list[tuple[float, np.ndarray, np.ndarray]], ...] = tuple([] for _ in events)
         self._shapes = (core.nq,), (core.nv,)
+        ends = [event.terminal if event.then is None else lib.ZD_EACH for event in events]
         self._kept = (ffi.new_handle(self), ffi.new("int[]", [event.direction for event in events]),
-                      ffi.new("int[]", [event.terminal for event in events]), known_table([event.known for event in events]))
+                      ffi.new("int[]", ends), known_table([event.known for event in events]))
         data, direction, terminal, (known, _) = self._kept
         self.c = ffi.new("zd_events *", {
             "count": len(events), "direction": direction, "terminal": terminal, "data": data, "known": known,

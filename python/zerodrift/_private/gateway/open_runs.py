@@ -64,6 +64,14 @@ class OpenRun(Run):
         """Set the goal, a number of steps or a time; return the status."""
         return lib.zd_run_set_goal(self.c, steps, t)
 
+    def set_state(self, p: np.ndarray, v: np.ndarray) -> int:
+        """Move to another state at this time; return the status."""
+        return lib.zd_run_set_state(self.c, doubles(p, self._core.nq), doubles(v, self._core.nv))
+
+    def found(self, event: int) -> int:
+        """Number of occurrences of an event."""
+        return len(self._watcher.found[event]) if self._watcher else 0
+
     @property
     def ended_by(self) -> int:
         """Index of the terminal event at which it stopped."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
@@ -34,12 +34,20 @@ class Event:
         True: the run ends at the first occurrence; an integer n: at the n-th.
     of : dict of str to measure, optional
         Measures that the function receives, by argument name, or that symbols of the expression stand for.
+    then : callable or dict, optional
+        What happens at each occurrence, after which the run goes on: ``then(run)`` may set inputs and `Run.set_state`, as of
+        `Run`; a dict has values of inputs by name. `simulate` and `Run` take it; inputs of a dict need not be named there.
 
     Notes
     -----
     The event is evaluated at 16 points of each step, and near extremes towards zero: zeros further apart than a tenth of a step
     are found. Set `max_step` for those of a function that changes faster. A touch of zero, to rounding, is not an event,
     except exactly at the end of a step.
+
+    With `then` an event is armed again once its function has left zero; several at one instant act in the order of the list, and
+    one that acts three times within 1e-9 of the time that has passed is an error. A fixed step that is cut goes on by a short
+    one. Samples of steps have the states before and after `set_state`; `t_eval` and ``sol(t)`` have the one after. What a
+    function keeps itself is not in saved states.
 
     Reactions and accelerations are those of the state at which the event is evaluated. Where an input jumps, they jump with
     it: the event happens there, and the state after the jump is reported.
@@ -62,6 +70,17 @@ class Event:
     >>> float(round(sol[pin.angle][-1], 6))
     -0.408558
 
+    A ball that bounces, with a coefficient of restitution of 0.5:
+
+    >>> m = zd.Mechanism("ball", gravity=(0, -9.81))
+    >>> ball = m.body("ball", at=(0, 1), mass=1.0, inertia=0.1)
+    >>> def bounce(run: zd.Run) -> None:
+    ...     run.set_state(v=run.v * [1, -0.5, 1])
+    >>> floor = zd.Event(ball.position.y, direction=-1, then=bounce)
+    >>> sol = zd.simulate(m, 1.0, events=floor)
+    >>> sol.t_events[0].round(6).tolist()
+    [0.451524, 0.903047]
+
     The crank and the rocker of a four-bar at right angles, compiled:
 
     >>> import numpy as np
@@ -78,6 +97,7 @@ class Event:
     direction: Literal[-1, 0, 1] = 0
     terminal: bool | int = False
     of: Bindings | None = None
+    then: Callable[[Any], object] | Mapping[str, float] | None = None
 
     def watched(self, name: str, system: BaseSystem) -> Watched:
         """The event, checked for a system; error messages call it `name`, such as ``events[1]``."""
@@ -93,7 +113,16 @@ class Event:
                              f"{checks.shown(self.what)} is a measure", "conflicting-arguments")
         else:
             known = gateway.KnownEvent((_reading(name, self.what, system),), level)
-        return _watched(name, function, self.direction, self.terminal, known)
+        return _watched(name, function, self.direction, self.terminal, known, _action(name, self.then))
+
+
+def _action(name: str, then: Any) -> Callable[[Any], object] | Mapping[str, float] | None:
+    if isinstance(then, Mapping):
+        return {checks.instance(f"a name in then of {name}", key, str, "the name of an input"):
+                checks.number(f"then[{key!r}] of {name}", value) for key, value in then.items()}
+    if then is not None and not callable(then):
+        raise WrongType(f"then of {name} must be a function of the run, or a dict of inputs, not {checks.shown(then)}")
+    return then
 
 
 def _expression(name: str, what: Any, system: BaseSystem, of: dict[str, Any],
@@ -149,6 +178,18 @@ class Watched(NamedTuple):
     direction: int
     terminal: int
     known: gateway.KnownEvent | None   # what the core reads, or None
+    then: Callable[[Any], object] | Mapping[str, float] | None = None
+
+    def act(self, run: Any) -> None:
+        """What happens at an occurrence."""
+        try:
+            if callable(self.then):
+                self.then(run)
+            for name, value in self.then.items() if isinstance(self.then, Mapping) else ():
+                run[name] = value
+        except BaseException as error:
+            checks.tell(error, f"in then of {self.name}, called at t = {run.t:g}")
+            raise
 
     def value(self, t: float, p: np.ndarray, v: np.ndarray, x: Sequence[float]) -> float:
         """Value of the event function, checked to be a finite number."""
@@ -163,13 +204,27 @@ class Watched(NamedTuple):
         return checks.number(f"value of {self.name} at t = {t:g}", value)
 
 
-def events(given: Any, system: BaseSystem) -> tuple[Watched, ...] | None:
-    """Check the argument `events` of `simulate`: None, one event or several; each a callable, an `Event` or a measure."""
+def events(given: Any, system: BaseSystem, *, may_act: bool = False) -> tuple[Watched, ...] | None:
+    """Check the argument `events` of `simulate`: None, one event or several; each a callable, an `Event` or a measure.
+
+    Those with `then` are refused unless they may act.
+    """
     if given is None:
         return None
-    if not isinstance(given, Sequence) or isinstance(given, str):
-        return (_event("events", given, system),)
-    return tuple(_event(f"events[{i}]", each, system) for i, each in enumerate(given))
+    is_one = not isinstance(given, Sequence) or isinstance(given, str)
+    found = (_event("events", given, system),) if is_one else tuple(
+        _event(f"events[{i}]", each, system) for i, each in enumerate(given))
+    for each in found:
+        if each.then is not None and not may_act:
+            raise WrongValue(f"{each.name}.then must be left out here: simulate and Run act at events", "not-available")
+    return found
+
+
+def inputs_of(given: Any) -> list[str]:
+    """Inputs that are set by the dicts of events, each once."""
+    listed = given if isinstance(given, Sequence) and not isinstance(given, str) else [given]
+    return list(dict.fromkeys(key for each in listed if isinstance(each, Event) and isinstance(each.then, Mapping)
+                              for key in each.then))
 
 
 def _event(name: str, given: Any, system: BaseSystem) -> Watched:
@@ -182,10 +237,11 @@ def _event(name: str, given: Any, system: BaseSystem) -> Watched:
     return _watched(name, lambda t, p, v, x: given(t, p, v), getattr(given, "direction", 0), getattr(given, "terminal", False))
 
 
-def _watched(name: str, function: Any, direction: Any, terminal: Any, known: gateway.KnownEvent | None = None) -> Watched:
+def _watched(name: str, function: Any, direction: Any, terminal: Any, known: gateway.KnownEvent | None = None,
+             then: Any = None) -> Watched:
     """An event, checked."""
     if checks.number(f"{name}.direction", direction) not in (-1, 0, 1):
         raise WrongValue(f"{name}.direction must be -1, 0 or 1, not {direction!r}", "unknown-choice")
     if not isinstance(terminal, bool | np.bool_):
         checks.count(f"{name}.terminal, where it is not True or False,", terminal, least=0)
-    return Watched(name, function, int(direction), int(terminal), known)
+    return Watched(name, function, int(direction), int(terminal), known, then)

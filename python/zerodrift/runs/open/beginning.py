@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import warnings
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -98,6 +99,7 @@ def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: A
     """Check the arguments of a run. `is_open`: it has no end; `span` only serves the checks of its start."""
     system, p0, v0 = start_of(system, p0, v0, span[0])
     core_of(system)
+    inputs = _with_inputs(inputs, _events.inputs_of(events))
     declared = declared_inputs(inputs, system, speeds, arguments.step)
     of = declared.of.system if declared else system
     plan = settings.plan(of, span, arguments)
@@ -124,10 +126,18 @@ def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: A
     if not is_open and (told := system._what_it_costs(plan.steps)):
         warnings.warn(told, CostWarning, stacklevel=stacklevel + 1)
     rows = None if is_open else plan.rows
-    watched = _events.events(events, of)
+    watched = _events.events(events, of, may_act=True)
     ready = Prepared(system, span, plan.settings, plan.core_settings, core, rows, p0, v0, watched, None, None,
                      path, declared, None, core)
     return ready.with_own()
+
+
+def _with_inputs(inputs: Any, more: list[str]) -> Any:
+    """The argument `inputs` with others."""
+    if not more or isinstance(inputs, Mapping):
+        return inputs if not more else {**dict.fromkeys(more), **inputs}
+    given = [] if inputs is None else [inputs] if isinstance(inputs, str) or hasattr(inputs, "name") else list(inputs)
+    return [*given, *(name for name in more if name not in [getattr(each, "name", each) for each in given])]
 
 
 def nominal_span(t0: float, step: Any) -> tuple[float, float]:

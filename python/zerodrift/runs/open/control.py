@@ -30,6 +30,14 @@ class Every:
             raise WrongType(f"call must be a function of the run, not {checks.shown(call)}")
         self.call = call
 
+    def act(self, run: Any) -> None:
+        """Call it; what it raises gets a note on when."""
+        try:
+            self.call(run)
+        except BaseException as error:
+            checks.tell(error, f"in control {self!r}, called at t = {run.t:g}")
+            raise
+
     def __repr__(self) -> str:
         return f"<every {self.period:g} s: {getattr(self.call, '__name__', repr(self.call))}>"
 
@@ -122,7 +130,7 @@ class Sampling:
             number = self._number_at(i, run)
             if number is not None and self._called[i] != number:
                 self._called[i] = number
-                called(each, run)
+                called(each.act, run)
 
     def _is_on_grid(self, run: Any) -> bool:
         """True if all steps so far were fixed ones of full size, so that instants are counted in steps."""
@@ -165,14 +173,11 @@ class Sampling:
         return self._instant(i, number)
 
 
-def called(each: Every, run: Any) -> None:
-    """Call a controller; what it raises gets a note on when. `Keyboard` recognizes it by the code of this function."""
+def called(call: Callable[[Any], object], run: Any) -> None:
+    """Call what acts on a run, which it must not step meanwhile. `Keyboard` recognizes it by the code of this function."""
     run._is_controlled = True
     try:
-        each.call(run)
-    except BaseException as error:
-        checks.tell(error, f"in control {each!r}, called at t = {run.t:g}")
-        raise
+        call(run)
     finally:
         run._is_controlled = False
 

@@ -1,0 +1,153 @@
+"""Events that act: inputs that they set and states that they change, against closed forms, with any steps."""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from support import assert_close, refused
+
+G = 9.81
+STEPS = {"adaptive": {}, "fixed": {"step": 0.01}, "not dividing": {"step": 0.07, "integrator": "dormand_prince"},
+         "radau": {"integrator": "radau"}, "matrices": {"closed_form": False}, "samples": {"t_eval": np.linspace(0, 3, 31)}}
+
+
+def ball_and_floor(restitution=0.5, **event):
+    m = zd.Mechanism("ball", gravity=(0, -G))
+    ball = m.body("ball", at=(0, 1), mass=1.0, inertia=0.1)
+
+    def bounce(run):
+        run.set_state(v=run.v * [1, -restitution, 1])
+
+    return m, zd.Event(ball.position.y, direction=-1, then=bounce, **event)
+
+
+def bounces(until, restitution=0.5):
+    t, speed, found = np.sqrt(2 / G), np.sqrt(2 * G), []
+    while t < until and len(found) < 8:
+        found.append(t)
+        speed *= restitution
+        t += 2 * speed / G
+    return np.array(found)
+
+
+def height(t, restitution=0.5):
+    """Height of the ball at times of which none is a bounce."""
+    at = bounces(10.0)
+    number = np.searchsorted(at, t)
+    since = np.where(number == 0, t, t - at[number - 1])
+    speed = np.where(number == 0, 0.0, np.sqrt(2 * G) * restitution**number)
+    return (number == 0) + speed * since - G / 2 * since**2
+
+
+@pytest.mark.parametrize("steps", STEPS)
+def test_a_ball_bounces(steps):
+    m, floor = ball_and_floor()
+    sol = zd.simulate(m, 1.2, events=floor, **STEPS[steps] | ({"t_eval": np.linspace(0, 1.2, 13)} if steps == "samples" else {}))
+    assert_close(sol.t_events[0], bounces(1.2), 1e-13, scale=1.0)
+    assert np.abs(sol.energy_violation).max() < 1e-11
+    t = np.array([0.1, 0.4, 0.5, 0.8, 1.0, 1.1])
+    if steps == "samples":
+        assert_close(sol.p[1:, 1], height(sol.t[1:]), 1e-12, scale=1.0)
+    else:
+        assert_close(sol(t)[0][:, 1], height(t), 1e-12, scale=1.0)
+        twice = np.flatnonzero(np.diff(sol.t) == 0)       # the states before and after
+        assert_close(sol.t[twice], bounces(1.2), 1e-13, scale=1.0)
+        assert_close(sol.v[twice + 1, 1], -0.5 * sol.v[twice, 1], 1e-12, scale=1.0)
+
+
+def test_fixed_steps_return_to_their_grid():
+    m, floor = ball_and_floor()
+    sol = zd.simulate(m, 1.2, events=floor, step=0.1)
+    grid = [t for t in sol.t if np.abs(bounces(1.2) - t).min() > 1e-9]
+    assert_close(grid, 0.1 * np.arange(13), 1e-15, scale=1.0)
+
+
+def test_bounces_without_end_are_an_error():
+    """The time between bounces goes to zero; a ball that stays on the floor needs a contact."""
+    m, floor = ball_and_floor()
+    with refused("out-of-range", "again and again"):
+        zd.simulate(m, 2.0, events=floor)
+
+
+def arm(torque=2.0):
+    m = zd.Mechanism("arm")
+    link = m.link("arm", (0, 0), (1, 0), mass=3.0)
+    m.motor("drive", m.revolute("pin", m.ground, link.start), torque=torque)
+    return m
+
+
+@pytest.mark.parametrize("steps", STEPS)
+def test_a_motor_is_switched_off_at_an_angle(steps):
+    off = zd.Event("pin.angle", value=1.0, direction=1, then={"drive.torque": 0.0})
+    sol = zd.simulate(arm(), 3.0, events=off, **STEPS[steps])
+    assert_close(sol.t_events[0], [1.0], 1e-14, scale=1.0)
+    assert_close(sol["pin.speed"], 2 * np.minimum(sol.t, 1), 1e-12, scale=1.0)
+    assert_close([sol["drive.torque"][1], sol["drive.torque"][-1]], [2.0, 0.0], 1e-15, scale=1.0)
+    assert np.abs(sol.energy_violation).max() < 1e-11
+    if steps != "samples":
+        assert_close(sol([0.5, 2.0])[0][:, 0], [0.25, 3.0], 1e-12, scale=1.0)
+
+
+@pytest.mark.parametrize("steps", ["adaptive", "fixed"])
+def test_a_relay_switches_between_two_speeds(steps):
+    low = zd.Event("pin.speed", value=-0.5, direction=-1, then={"drive.torque": 2.0})
+    high = zd.Event("pin.speed", value=0.5, direction=1, then=lambda run: run.__setitem__("drive.torque", -2.0))
+    sol = zd.simulate(arm(), 10.0, events=[low, high], **STEPS[steps])
+    assert_close(sol.t_events[1], 0.25 + np.arange(10), 1e-11, scale=1.0)
+    assert_close(sol.t_events[0], 0.75 + np.arange(10), 1e-11, scale=1.0)
+    third = zd.Event("pin.speed", value=0.5, direction=1, then={"drive.torque": -2.0}, terminal=3)
+    assert_close(zd.simulate(arm(), 10.0, events=[low, third], **STEPS[steps]).t[-1], 2.25, 1e-11, scale=1.0)
+
+
+def test_an_event_that_turns_its_function_back_occurs_once():
+    """The torque is reversed where the speed reaches 0.5: it falls at once, and passes 0.5 no second time."""
+    turn = zd.Event("pin.speed", value=0.5, then={"drive.torque": -2.0})
+    sol = zd.simulate(arm(), 1.0, events=turn)
+    assert_close(sol.t_events[0], [0.25], 1e-12, scale=1.0)
+
+
+def test_open_runs_act_and_are_restored():
+    m, floor = ball_and_floor()
+    run = zd.Run(m, events=floor)
+    for t in (0.3, 0.6, 1.0):
+        run.advance_to(t)
+        assert_close([run.t, run.p[1]], [t, height(t)], 1e-12, scale=1.0)
+        again = zd.Run(m, events=floor)
+        again.restore(run.save())
+        again.advance_to(1.1)
+        assert_close(again.p[1], height(1.1), 1e-12, scale=1.0)
+    run = zd.Run(m, events=floor, step=0.01, record=True)
+    run.step(60)
+    assert run.steps == 60
+    assert run.solution().t_events[0].size == 1
+
+
+def test_several_events_act_in_order():
+    seen = []
+    events = [zd.Event("pin.angle", value=1.0, then=lambda run, i=i: seen.append((i, run.t))) for i in range(3)]
+    zd.simulate(arm(), 2.0, events=events)
+    assert [i for i, _ in seen] == [0, 1, 2]
+
+
+def test_states_that_break_constraints_are_refused():
+    run = zd.Run(zd.systems.four_bar(), step=0.01)
+    run.step(10)
+    p, v = run.p, run.v
+    with refused("inconsistent-start"):
+        run.set_state(v=v + np.array([1.0, 0, 0]))
+    assert_close([*run.p, *run.v], [*p, *v], 1e-15, scale=1.0)
+    run.set_state(v=-v)
+    run.step(10)
+    assert_close(run.p, zd.systems.four_bar().p0, 1e-7, scale=1.0)     # back where it began, but for the error of the method
+
+
+def test_refusals():
+    with refused("in-use"):
+        zd.simulate(arm(), 2.0, events=zd.Event("pin.angle", value=1.0, then=lambda run: run.step()))
+    with refused("not-available", "events.then"):
+        zd.ensemble(arm(), 1.0, v0=[[0.0], [1.0]], events=zd.Event("pin.angle", value=1.0, then={"drive.torque": 0.0}))
+    with refused("wrong-type", "then of events"):
+        zd.simulate(arm(), 2.0, events=zd.Event("pin.angle", then=3))
+    with pytest.raises(ZeroDivisionError) as found:
+        zd.simulate(arm(), 2.0, events=zd.Event("pin.angle", value=1.0, then=lambda run: 1 / 0))
+    assert "in then of events, called at t = 1" in found.value.__notes__
