@@ -10,7 +10,7 @@
 #include "../linalg/small.h"
 #include "../point/point.h"
 
-static const double SMALL_CHANGE = 0x1p-20;     /* of coordinates and velocities, by which an event function is seen to rise or to fall */
+static const double SMALL_CHANGE = 0x1p-20;     /* change of coordinates by which a function is seen to rise or to fall */
 
 static int is_fixed(const zd_watch *self)
 {

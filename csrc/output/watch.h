@@ -54,8 +54,8 @@ static inline int zd_watch_ends(const zd_watch *self) { return self->ended && se
 /* y (n,) <- the cubic Hermite polynomial of a step of size h, at a fraction x of it */
 void zd_interpolate_cubic(int n, double x, double h, const double *y0, const double *rate0, const double *y1, const double *rate1,
                           double *y);
-/* Sets the value of the disarmed event function at the start of the next step to its change there, where it is zero but for rounding: its zero is not
- * an event, but its return to zero is. */
+/* Sets the value of the disarmed event function, which is zero to rounding, to its change at the start of the next step: its zero there is
+ * not an event, and its return to zero is one. */
 int zd_watch_arm(zd_watch *self);
 /* Evaluates the rates at the start of a fixed step; without them, events are sought by the ends of the step alone. */
 void zd_watch_before(zd_watch *self);

@@ -52,10 +52,10 @@ static int make_step(zd_resample *self, int64_t sample)
     const double t = self->run->stepper.t, next = time_of(self->saved, sample + 1);
     if (status || t == next) return status;
     const int is_last = sample + 2 == self->saved->samples;
-    const int is_short = self->run->settings.step - (next - t) > ZD_TIME_RESOLUTION * fmax(fabs(t), fabs(next));
+    const int is_cut_short = self->run->settings.step - (next - t) > ZD_TIME_RESOLUTION * fmax(fabs(t), fabs(next));
     return zd_step_attempt(loop, &(zd_attempt){
         .kind = ZD_REPEATED_STEP, .forced = is_last, .step = sample + 1,
-        .h = zd_is_adaptive(loop) || is_last || is_short ? next - t : self->run->settings.step, .t1 = next,
+        .h = zd_is_adaptive(loop) || is_last || is_cut_short ? next - t : self->run->settings.step, .t1 = next,
     });
 }
 

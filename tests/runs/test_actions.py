@@ -138,7 +138,7 @@ def test_states_that_break_constraints_are_refused():
     assert_close([*run.p, *run.v], [*p, *v], 1e-15, scale=1.0)
     run.set_state(v=-v)
     run.step(10)
-    assert_close(run.p, zd.systems.four_bar().p0, 1e-7, scale=1.0)     # back where it began, but for the error of the method
+    assert_close(run.p, zd.systems.four_bar().p0, 1e-7, scale=1.0)     # back where it began, to the error of the method
 
 
 def test_refusals():

@@ -112,7 +112,8 @@ def _add(m: Elements, force: type[TableForce], name: Any, given: dict[str, Any])
     place |= {"which": which} if (which := given.get("which")) else {}
     if entry.is_spring and law:
         _check_one(f"{what} {name!r}", law, given)
-    if np.shape(given.get("stiffness")) == (6, 6) and entry.axes == 3:
+    stiffness: Any = given.get("stiffness")
+    if np.shape(stiffness) == (6, 6) and entry.axes == 3:
         place |= {"coupled": coupled} if (coupled := _coupled(name, given)).any() else {}
     values = {path: value for word in parameters(entry) for path, value in _values(word, name, entry, given[word]).items()}
     element = force(name, *ends, values=values, **place)

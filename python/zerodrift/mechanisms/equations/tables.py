@@ -156,7 +156,7 @@ class Tables:
 
     # ---- marker quantities ----
 
-    def _quantity(self, name: str, quantity: Quantity) -> int:
+    def _quantity(self, name: str, quantity: Any) -> int:
         self.quantity_number[name] = len(self.quantities)
         self.quantities.append(quantity)
         return self.quantity_number[name]
@@ -320,7 +320,8 @@ class Tables:
         """Add the generalized force along each marker quantity of an element, and its measures."""
         index, joint = len(self.forces), -1 if element.joint is None else self.joint_number[element.joint.name]
         every, size = [each for part in element.parts for each in enumerate(self._element_quantities(part))], 0
-        coupled = [] if element.coupled is None else [self._quantity(f"{element.name} {i}", each) for i, each in every]
+        stiffnesses: Any = element.coupled
+        coupled = [] if stiffnesses is None else [self._quantity(f"{element.name} {i}", each) for i, each in every]
         for i, quantity in every:
             stiffness, damping = (self.numbers(element, path, element.values.get(path, 0.0)) for path in paths(element.row)[i])
             if element.law is not None:
@@ -328,8 +329,8 @@ class Tables:
                 self._generalized_force(element.drives, number, element, element.row.sign, joint=joint, damping=damping)
                 continue
             number = coupled[i] if coupled else self._quantity(f"{element.name} {i}", quantity)
-            self.forces += [entries.GeneralizedForce("spring", number, float(element.coupled[i, j]), inputs=[other])
-                            for j, other in enumerate(coupled) if element.coupled[i, j]]
+            self.forces += [entries.GeneralizedForce("spring", number, float(stiffnesses[i, j]), inputs=[other])
+                            for j, other in enumerate(coupled) if stiffnesses[i, j]]
             if quantity.kind == "rotation":         # damped by the angular velocity, not by the rate of the rotation vector
                 self.forces.append(entries.GeneralizedForce("spring", number, stiffness))
                 number, stiffness = self._quantity(f"{element.name} {i} turn", quantity._replace(kind="turn")), 0.0

@@ -35,7 +35,7 @@ class Event:
     of : dict of str to measure, optional
         Measures that the function receives, by argument name, or that symbols of the expression stand for.
     then : callable or dict, optional
-        What happens at each occurrence, after which the run goes on: ``then(run)`` may set inputs and `Run.set_state`, as of
+        Action at each occurrence, after which the run goes on: ``then(run)`` may set inputs and `Run.set_state`, as of
         `Run`; a dict has values of inputs by name. `simulate` and `Run` take it; inputs of a dict need not be named there.
 
     Notes
@@ -181,7 +181,7 @@ class Watched(NamedTuple):
     then: Callable[[Any], object] | Mapping[str, float] | None = None
 
     def act(self, run: Any) -> None:
-        """What happens at an occurrence."""
+        """Act at an occurrence."""
         try:
             if callable(self.then):
                 self.then(run)

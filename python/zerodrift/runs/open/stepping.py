@@ -102,8 +102,8 @@ class Stepping(Present):
     def _require_idle(self) -> None:
         """Raise an error if a controller of this run is being called."""
         if self._is_controlled:
-            raise InUse("a controller or an event must not step, advance, reset, restore or close the run that it is given: it "
-                        "sets inputs; run.copy() is another run, which it may move")
+            raise InUse("a controller must not step, advance, reset, restore or close the run that it is given: it sets inputs; "
+                        "run.copy() is another run, which it may move")
 
     def _sample(self, sampling: Sampling, last: int, t: float) -> None:
         """Advance to a number of steps or to a time, with calls of the controllers that are due."""
