@@ -7,22 +7,27 @@ import pytest
 
 import zerodrift as zd
 from few_bodies import kicked
+from support import called
 
 DURATION = 0.02     # s
 
 
-def peak(**options):
+def peak(form=called, **options):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", zd.StabilityWarning)     # at rest, stability limits the steps of an explicit method
-        return zd.simulate(kicked(1000.0, 0.5), 0.8, **options)["mass.position.y"].max()
+        return zd.simulate(kicked(1000.0, 0.5, form=form), 0.8, **options)["mass.position.y"].max()
 
 
 def test_an_action_shorter_than_a_step_may_be_missed_and_is_found_with_max_step():
-    """As `simulate` says of `max_step`; the height is that of fixed steps a twentieth of the duration long."""
+    """As `simulate` says of `max_step`; the height is that of fixed steps a twentieth of the duration long.
+
+    Steps end at the jumps of a function that is recorded.
+    """
     options = {"integrator": "dormand_prince", "rtol": 1e-8, "atol": 1e-8}
     high = peak(step=DURATION / 20)
     assert high == pytest.approx(0.41, abs=0.01)
     assert peak(**options) < 1e-6
+    assert peak(lambda law: law, **options) == pytest.approx(high, rel=1 / 20)
     assert peak(max_step=DURATION, **options) == pytest.approx(high, rel=1 / 20)      # of its steps
 
 

@@ -50,11 +50,14 @@ def crank_and_piston(at=(0.4, 0), **bushing):
     return m
 
 
-def kicked(force, at, gravity=0.0):
-    """A mass at rest on a spring, omega = 31.6 / s, critically damped by a third; a force of a fiftieth of a second moves it."""
+def kicked(force, at, gravity=0.0, form=lambda law: law):
+    """A mass at rest on a spring, omega = 31.6 / s, critically damped by a third; a force of a fiftieth of a second moves it.
+
+    `form` makes what the force is given from its function of t.
+    """
     m = zd.Mechanism("kicked", gravity=(0, -gravity))
     mass = m.particle("mass", 1.0, at=(0, 0))
     m.slot("guide", m.ground, mass, axis=(0, 1))
     m.spring("spring", m.ground.point((0, -1)), mass, stiffness=1e3, length=1 + gravity / 1e3, damping=20.0)
-    m.force("kick", mass, along=(0, 1), value=lambda t: force if at < t < at + 0.02 else 0.0)
+    m.force("kick", mass, along=(0, 1), value=form(lambda t: force if at < t < at + 0.02 else 0.0))
     return m

@@ -85,8 +85,8 @@ def simulate(
         must be at most 1, `atol` has the units of y. The error of the motion accumulates over the steps and is larger than these;
         `zerodrift.tune` finds settings for a given error of the motion.
     first_step, max_step : float, optional
-        Adaptive steps: size of the first step, and largest size, in s. An action that is shorter than a step may be missed;
-        set `max_step` to its duration or less.
+        Adaptive steps: size of the first step, and largest size, in s. An action that is shorter than a step may be missed, as of
+        a function that Python calls, at whose jumps steps do not end; set `max_step` to its duration or less.
     max_move : float, optional
         Adaptive steps: largest change of any coordinate in a step, in m or rad; with formulation "independent", of the
         coordinates that it integrates. A force that acts in a narrow region, such as a thin wall, may be missed without
