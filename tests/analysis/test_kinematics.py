@@ -132,6 +132,35 @@ def test_what_is_wrong_is_refused():
         zd.kinematics(bar, {"crank.angle": [1.6, 1.7]})["A.force"]
 
 
+@pytest.mark.parametrize("layout", LAYOUTS)
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_what_reads_reactions_is_refused_and_other_forces_are_those_of_inverse_dynamics(dimension, layout):
+    zero = (0.0,) * (dimension - 2)
+    m = zd.Mechanism("scene", dimension=dimension, gravity=(0, -9.81, *zero))
+    bar = m.link("bar", (0, 0, *zero), (1, 0.2, *zero), mass=2.0)
+    pin = m.revolute("pin", m.ground, bar.start, damping=0.4, **({"axis": (0, 0, 1)} if dimension == 3 else {}))
+    m.spring("coil", m.ground.point((1.5, 0.5, *zero)), bar.end, stiffness=60.0, length=0.2, damping=0.3)
+    m.spring("law", m.ground.point((2, 0.5, *zero)), bar.end, force=lambda length, speed, t: length - speed + t)
+    m.bushing("rubber", m.ground.point((0.5, 0, *zero)), bar.center, stiffness=5.0)
+    m.motor("constant", pin, torque=3.0)
+    m.force("drag", bar.end, along=(1, 0, *zero), value=lambda r: 0.1 * r, of={"r": pin.force.x})
+    read = {"pin": "pin.force.x", "drag": "drag.force", "torque": "constant.torque", "coil": "coil.force",
+            "push": "rubber.force.y", "end": "bar.end.acceleration.x", "angle": "pin.angle"}
+    for name, measure in read.items():
+        m.measure(f"own {name}", lambda x, t: 2 * x + t, of={"x": measure}, unit="N")
+    system = m.system(layout)
+    kin = zd.kinematics(system, {"pin.angle": np.sin}, np.linspace(0, 1, 5))
+    inv = zd.inverse_dynamics(system, kin)
+    for name in ("pin.force", "pin.force.x", "pin.torque", "drag.force", "own pin", "own drag"):
+        with refused("not-available", name):
+            kin[name]
+        assert np.abs(inv[name]).max() > 0.1
+    others = [f"own {name}" for name in read if name not in ("pin", "drag")]
+    for name in ("coil.force", "law.force", "rubber.force", "rubber.torque", "constant.torque", "constant.power", *others):
+        assert np.array_equal(kin[name], inv[name])
+    assert kin["own angle"] == pytest.approx(2 * np.sin(kin.t) + kin.t, abs=1e-14)
+
+
 def test_arrays_over_time_become_quintic_splines():
     """Beside SciPy's spline with the same derivatives at both ends, at samples with unequal distances."""
     t = np.sort(np.random.default_rng(2).uniform(0, 3, 40))

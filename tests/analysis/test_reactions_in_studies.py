@@ -81,6 +81,23 @@ def test_efforts_of_a_motion_contain_the_friction_that_its_reactions_cause(layou
     assert found["pin.angle"] == pytest.approx([expected], rel=1e-10)
 
 
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_laws_that_are_zero_beside_them(layout):
+    """A motor at rest, and a drag without a load, by inverse dynamics and held at rest."""
+    m = zd.Mechanism("arm", gravity=(0, -G))
+    link = m.link("link", (0, 0), (1, 0), mass=MASS)
+    pin = m.revolute("pin", m.ground, link.start)
+    m.force("drag", link.end, along=(0, 1), value=lambda r: -0.1 * r, of={"r": "pin.force.y"})
+    m.force("side", link.end, along=(1, 0), value=lambda r: -0.1 * r, of={"r": "pin.force.x"})
+    m.motor("drive", pin, torque=lambda t: 3 * t)
+    system = m.system(layout)
+    kin = zd.kinematics(system, {"pin.angle": lambda t: 0.0 * t}, [0.0, 1.0])
+    found, load = zd.inverse_dynamics(system, kin), MASS * G / 0.9       # what pin and drag bear: 0.9 of the pin's force
+    assert found["pin.force.y"] == pytest.approx([load, load], rel=1e-12)
+    assert found["pin.angle"] == pytest.approx([MASS * G * C + 0.1 * load, MASS * G * C + 0.1 * load - 3], rel=1e-12)
+    assert zd.equilibrium(system, hold=["pin.angle"])["pin.torque"] == pytest.approx(MASS * G * C + 0.1 * load, rel=1e-9)
+
+
 def test_forces_that_do_not_agree_with_the_reactions_are_refused(monkeypatch):
     """Without an iteration the reactions are those of the free motion, not of the prescribed one."""
     monkeypatch.setattr(read_forces, "ITERATIONS", 0)

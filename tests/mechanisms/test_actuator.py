@@ -116,10 +116,10 @@ def test_a_law_names_the_length_and_speed_of_its_own_actuator(law, tmp_path):
 
 
 def test_a_motor_names_the_angle_and_speed_of_its_joint():
-    m = zd.Mechanism("swing", parameters={"speed": 2.0})
+    m = zd.Mechanism("swing", parameters={"bias": 2.0})
     link = m.link("link", (0, 0), (1, 0), mass=3.0)
     pin = m.revolute("pin", m.ground, link.start)
-    m.motor("drive", pin, torque=lambda angle, speed: -5 * angle + speed)     # speed is the parameter
+    m.motor("drive", pin, torque=lambda angle, speed, bias: -5 * angle + 0 * speed + bias)
     sol = zd.simulate(m, 1.0, step=1e-3)
     omega = np.sqrt(5 / (3.0 / 12 + 3.0 / 4))
     assert_close(sol["pin.angle"], 0.4 * (1 - np.cos(omega * sol.t)), 1e-10, scale=1.0)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import sympy as sp
 from scipy.integrate import solve_ivp
 
 import zerodrift as zd
@@ -131,6 +132,32 @@ def test_files_and_lifts_have_the_law(make, tmp_path):
 def test_either_a_stiffness_or_a_law(make, given, sentence):
     with refused("conflicting-arguments", sentence):
         make(2, **given)
+
+
+@pytest.mark.parametrize("law", [lambda length: 60 * length, 60 * sp.Symbol("length"),
+                                 zd.table([0, 9], [0, 540], argument="length", kind="linear")])
+def test_a_parameter_and_an_own_quantity_of_one_name(law, tmp_path):
+    """A law must not ask for it; `of=` says which is meant, and a parameter that is added later changes no law."""
+    m = scene(2, force=law)
+    known = zd.simulate(m, 0.3, step=1e-3)
+    m.parameter("length", 7.0)
+    with refused("duplicate-name", "force of spring 'k2' asks for 'length', which is 'k2.length' and a parameter of 'swing'"):
+        m.spring("k2", m.ground.point((0, 1)), m["mass"], force=law)
+    for each in (m, zd.load(m.save(tmp_path / "m"))):
+        assert_close(zd.simulate(each, 0.3, step=1e-3).p, known.p, 1e-14, scale=1.0)
+    m.spring("k2", m.ground.point((0, 1)), m["mass"], force=law, of={"length": "k2.length"})
+    sol = zd.simulate(m, 0.3, step=1e-3)
+    assert_close(sol["k2.force"], 60 * sol["k2.length"], 1e-12, scale=1.0)
+
+
+def test_a_parameter_and_the_angle_of_a_joint():
+    m = swing(2, stiffness=1.0)
+    m.parameter("angle", 0.5)
+    for verb, what in ((m.motor, "motor"), (m.torsion_spring, "torsion spring")):
+        with refused("duplicate-name", f"torque of {what} 'second' asks for 'angle', which is 'pin.angle'"):
+            verb("second", "pin", torque=lambda angle: -angle)
+    with refused("wrong-type", "must be a dict of measures"):
+        m.motor("second", "pin", torque=lambda angle: -angle, of="pin.angle")
 
 
 def test_a_law_between_coincident_points_has_no_direction():

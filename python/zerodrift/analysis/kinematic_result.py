@@ -13,6 +13,8 @@ from ..systems.base import BaseSystem
 class Kinematics:
     """A prescribed motion; ``kin["coupler.acceleration"]`` is a measure at all samples, (k,) or (k, size).
 
+    Reactions, and what reads them, are those of `inverse_dynamics`; forces whose laws read none are here, too.
+
     Attributes
     ----------
     system : system
@@ -40,8 +42,10 @@ class Kinematics:
 
     def __getitem__(self, given: Any) -> np.ndarray:
         name = getattr(given, "name", given)
-        if self.system._watching.unit(name) in ("N", "N m", "W"):
-            raise WrongName(f"{name!r} needs forces, which kinematics does not have: zd.inverse_dynamics(system, kin) has them",
+        watching = self.system._watching
+        place = watching.find(name)
+        if place is not None and watching.core.needs_reactions(place.number):
+            raise WrongName(f"{name!r} needs reactions, which kinematics has not: zd.inverse_dynamics(system, kin) has them",
                             "not-available")
         return read(self.system, name, self.t, (self.p, self.v, self.vdot, np.zeros((len(self.t), self.system.m))))
 

@@ -106,13 +106,14 @@ def solved(at: State, names: Sequence[str], respond: Callable[[np.ndarray], Moti
         off = left(u[None])[0]
         if np.abs(off).max(initial=0.0) <= LEFT * max(float(np.abs(u).max(initial=0.0)), 1e-300):
             break
-        unit = np.diag(np.maximum(np.abs(u), np.abs(off)))
+        size = np.maximum(np.abs(u), np.abs(off))
+        unit = np.diag(np.where(size > 0, size, size.max()))
 
         def moved(which: np.ndarray, h: np.ndarray, u: np.ndarray = u, unit: np.ndarray = unit) -> np.ndarray:
             return left(u + h[:, None] * unit[which])
 
         matrix = differences.each_roughly(moved, np.ones(len(u)), len(u))
-        if not np.linalg.det(matrix) > 0:
+        if not np.linalg.slogdet(matrix)[0] > 0:
             raise NoUniqueMotion(f"{at.system.name} must have one force that makes this motion, and friction has several or none")
         u = u - unit @ np.linalg.solve(matrix.T, off)
     else:

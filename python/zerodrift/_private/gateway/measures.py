@@ -61,6 +61,10 @@ class Measuring:
         """Index of the joint whose coordinate, or its speed, a measure is; -1: none."""
         return -1
 
+    def needs_reactions(self, index: int) -> bool:
+        """True for a measure that a motion alone does not determine: of forces, which depend on what drives it."""
+        return self.measures[index].unit in ("N", "N m", "W")
+
     def measure_depends(self, index: int) -> str:
         """Highest derivative that a measure depends on: "positions", "velocities" or "accelerations"."""
         return DEPENDS[self.c.measures.measure[index].depends]

@@ -274,8 +274,13 @@ class Elements:
         elements = self._elements if own is None else {**self._elements, own.name: own}
         words = {"angle": which, "speed": f"{which}_speed"} if which else dict(zip(OWN, OWN, strict=True))
         bound = {word: f"{own.name}.{measure}" for word, measure in words.items()
-                 if own is not None and word not in self.parameters and reading(f"{own.name}.{measure}", elements)}
-        law, dynamic = Law(what, given, of={**bound, **of} if bound and of else of or bound, parameters=self.parameters), []
+                 if own is not None and reading(f"{own.name}.{measure}", elements)}
+        every, dynamic = {**bound, **of} if isinstance(of, Mapping) else bound if of is None else of, []
+        law = Law(what, given, of=every, parameters=self.parameters)
+        for word in law.names:
+            if word in bound and word in self.parameters and word not in (of or {}):
+                raise WrongValue(f"{what} asks for {word!r}, which is {bound[word]!r} and a parameter of {self.name!r}: give the "
+                                 f"parameter another name, or of={{{word!r}: {bound[word]!r}}}", "duplicate-name")
         for measure in law.measures:
             self._check_measured(what, measure, elements)
             read = reading(measure, elements)

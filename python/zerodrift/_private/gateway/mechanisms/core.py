@@ -70,6 +70,17 @@ class MechanismCore(CoreSystem):
         along = self.measures[index]
         return self._reactions.get(f"{along.name.rpartition('.')[0]}.force", -1) if along.size == 1 else -1
 
+    def needs_reactions(self, index: int) -> bool:
+        """As of any system, except for forces whose laws read no reactions, and measures of one's own that read no others."""
+        each = self.measures[index]
+        if each.kind == "formula":
+            numbers = {other.name: i for i, other in enumerate(self.measures)}
+            return any(self.needs_reactions(numbers[name if name in numbers else name.rpartition(".")[0]])
+                       for name in each.reads)
+        if each.kind in ("force value", "force power", "force sum", "torque sum"):
+            return any(force.reads for force in self.tables.forces[each.first:each.first + each.size])
+        return super().needs_reactions(index)
+
     @functools.cached_property
     def _reactions(self) -> dict[str, int]:
         """Joints by the names of their forces."""
