@@ -38,8 +38,11 @@ int zd_pass_break(zd_step_loop *loop)
     if (next - t <= 2 * rounding) stepper->t = fmin(next + rounding, loop->end);
     loop->before_break = next_break(breaks, stepper->t + 4 * rounding) - rounding;
     if (stepper->t == t) return ZD_DONE;
-    loop->motion->point->t = stepper->t;
-    return zd_renew(loop);
+    zd_point *point = loop->motion->point;
+    point->t = stepper->t;
+    point->known &= point->constant;
+    const int status = zd_constraints(point->system) ? zd_path_end(stepper, stepper->t, 0) : ZD_DONE;      /* speeds may have jumped */
+    return status ? status : zd_renew(loop);
 }
 
 int zd_renew(zd_step_loop *loop)

@@ -80,7 +80,8 @@ static int formula_is_right(const zd_elements *elements, const zd_output_spec *f
     const int first = formula->term, count = formula->size;
     if (!elements->law || formula->index < 0 || first < 0 || !zd_is_in(count, ZD_MAX_READS + 1) || first + count > elements->terms) return 0;
     for (const zd_quantity_term *term = elements->term + first; term < elements->term + first + count; term++) {
-        if (!zd_is_in(term->quantity, elements->measures) || !(term->coefficient >= 0 && term->coefficient < ZD_MAX_COMPONENTS)) return 0;
+        const int has_component = term->coefficient >= 0 && term->coefficient < (double)ZD_MAX_COMPONENTS;
+        if (!zd_is_in(term->quantity, elements->measures) || !has_component) return 0;
         const zd_output_spec *measure = elements->measure + term->quantity;
         if (measure->kind == ZD_FORMULA || measure->size > ZD_MAX_COMPONENTS) return 0;
     }

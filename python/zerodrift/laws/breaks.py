@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,8 @@ from .formula import FUNCTIONS, SIGNS, Evaluation, Formula, operands
 from .table import Spline
 
 MOST = 16               # lines that an operation may follow
-SAMPLES = 256           # of a comparison over a period, between which it changes at most once
+SAMPLES = 256           # of a comparison over a period, between which it changes at most once; 16 times as many over a span
+NEAREST = 32            # samples around which a comparison that nearly changes is examined
 Break = tuple[float, tuple[float, ...]]     # s: a period, 0 for none, and times
 Line = tuple[float, float]                  # value at t = 0, and slope
 
@@ -27,14 +28,17 @@ def of_spline(table: Spline, line: Line = (0.0, 1.0)) -> Iterable[Break]:
         yield abs(period / slope), tuple(np.sort((at - start) / slope).tolist())
 
 
-def of_formula(formula: Formula, numbers: Mapping[str, float]) -> Iterable[Break]:
+def of_formula(formula: Formula, numbers: Mapping[str, float], span: tuple[float, float] | None = None) -> Iterable[Break]:
     """Breaks of a formula, from the values of its names but t: those of comparisons, remainders, roundings and tables.
 
-    Found are those of what consists of lines over time, or has a period. Some may be where nothing happens.
+    Found are those of what consists of lines over time, or has a period; and in a span those of other comparisons of t. Some may
+    be where nothing happens.
     """
-    lines, periods = list[Sequence[Line]](), list[float | None]()
+    lines, periods, timed = list[Sequence[Line]](), list[float | None](), list[bool]()
     for kind, content in formula.operations:
         given = operands(kind, content)
+        timed.append(all(timed[each] for each in given) and (kind != "leaf" or content == "t" or not isinstance(content, str)
+                                                             or content in numbers))
         lines.append(_lines(kind, content, lines, numbers))
         periods.append(_period(kind, content, [periods[each] for each in given], [lines[each] for each in given]))
         if kind == "comparison":
@@ -42,13 +46,21 @@ def of_formula(formula: Formula, numbers: Mapping[str, float]) -> Iterable[Break
             for (a, slope), (b, other) in itertools.product(left, right):
                 if slope != other:
                     yield 0.0, ((b - a) / (slope - other),)
-            if (period := periods[-1]) and (found := _changes(formula, content, numbers, period)):
-                yield period, found
+            if period := periods[-1]:
+                span_of = (period, 2 * period)
+            elif span and timed[-1] and not (left and right):
+                span_of = span
+            else:
+                continue
+            if found := _changes(formula, content, numbers, *span_of):
+                yield period or 0.0, found
         elif kind == "call" and content[0] == SPLINE.__name__:
             for line in lines[given[1]]:
                 yield from of_spline(formula.operations[given[0]][1], line)
         elif kind == "call":
             for start, slope in lines[given[0]]:
+                if slope and content[0] == "Abs":
+                    yield 0.0, (-start / slope,)
                 if period := _spacing(content[0], slope, [lines[each] for each in given[1:]]):
                     yield period, ((-start / slope) % period,)
 
@@ -118,18 +130,49 @@ def _period(kind: str, content: Any, periods: Sequence[float | None], lines: Seq
     return max(lengths, default=0.0) if is_common else None
 
 
-def _changes(formula: Formula, comparison: Any, numbers: Mapping[str, float], period: float) -> tuple[float, ...]:
-    """Times in the second period after t = 0 at which a comparison changes."""
-    sign, left, right = comparison
+def _changes(formula: Formula, comparison: Any, numbers: Mapping[str, float], first: float, last: float) -> tuple[float, ...]:
+    """Times from the first to the last at which a comparison changes: between samples, or where they come near to it."""
+    sign, *sides = comparison
 
-    def holds(t: float) -> bool:
+    def difference(t: float) -> float:
         value = Evaluation(formula.operations, {**numbers, "t": t})
-        return bool(SIGNS[sign](value(left), value(right)))
+        try:
+            return float(value(sides[0]) - value(sides[1]))
+        except (ArithmeticError, ValueError):
+            return math.nan
 
-    at = (period * (1 + np.arange(SAMPLES + 1) / SAMPLES)).tolist()
-    found, known = [], [holds(t) for t in at]
-    for a, b, before, after in zip(at, at[1:], known, known[1:], strict=False):
+    def holds(d: float) -> bool:
+        return bool(SIGNS[sign](d, 0.0))
+
+    samples = SAMPLES * (16 if first != last / 2 else 1)
+    at = np.linspace(first, last, samples + 1).tolist()
+    values = [difference(t) for t in at]
+    near = [k for k in range(1, samples) if holds(values[k - 1]) == holds(values[k]) == holds(values[k + 1])
+            and abs(values[k]) <= min(abs(values[k - 1]), abs(values[k + 1]))]
+    for k in sorted(near, key=lambda k: abs(values[k]))[:NEAREST]:
+        at[k], values[k] = _nearest(difference, at[k - 1], at[k], at[k + 1], holds)
+    found = []
+    for a, b, da, db in zip(at, at[1:], values, values[1:], strict=False):
+        before, after = holds(da), holds(db)
         while before != after and a < (middle := (a + b) / 2) < b:
-            a, b = (middle, b) if holds(middle) == before else (a, middle)
+            a, b = (middle, b) if holds(difference(middle)) == before else (a, middle)
         found += [b] * (before != after)
     return tuple(found)
+
+
+def _nearest(difference: Callable[[float], float], a: float, x: float, b: float,
+             holds: Callable[[float], bool]) -> tuple[float, float]:
+    """Time between a and b, and the difference there, at which it is least by golden sections from x, or has changed."""
+    best, known = difference(x), holds(difference(x))
+    for _ in range(60):
+        t = x + 0.382 * ((b - x) if b - x > x - a else (a - x))
+        d = difference(t)
+        if holds(d) != known:
+            return t, d
+        if abs(d) < abs(best):
+            a, x, b, best = (x, t, b, d) if t > x else (a, t, x, d)
+        elif t > x:
+            b = t
+        else:
+            a = t
+    return x, best

@@ -6,6 +6,7 @@ and the formula is compared with the function at points of every path. A functio
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import math
 import random
@@ -23,7 +24,7 @@ from .quantities import Quantity, Sheet, Unrecorded, of_array
 MAX_PATHS = 64
 POINTS = 20         # of each path, at which the formula is compared with the function
 ATTEMPTS = 500      # points that are tried for these: a path that none of them takes counts as one that is not reached
-OPERAND_ROUNDING = 1e-12    # of the largest operand
+OPERAND_ROUNDING, NEARLY = 1e-12, 1e-9     # of the largest operand: rounding, and a change by rounding of the arguments
 
 
 class Branch(NamedTuple):
@@ -214,7 +215,8 @@ def _compare(given: Callable[..., Any], result: Node, tree: Branch | int, paths:
         except (ArithmeticError, ValueError):       # beyond a table, for example
             continue
         sizes = [abs(each) for each in evaluation.values.values() if isinstance(each, int | float)]
-        _check(given, point, value, max(size for size in sizes if size == size))
+        largest = max(size for size in sizes if size == size)
+        _check(given, point, value, OPERAND_ROUNDING * largest + _change(found, last, point, value, NEARLY * largest))
         if math.isfinite(value):
             open_paths[path] -= 1
             open_paths = {path: left for path, left in open_paths.items() if left}
@@ -226,7 +228,16 @@ def _conditions(tree: Branch | int) -> dict[Node, None]:
     return {tree.condition: None, **_conditions(tree.yes), **_conditions(tree.no)} if isinstance(tree, Branch) else {}
 
 
-def _check(given: Callable[..., Any], point: Mapping[str, float], value: float, largest: float) -> None:
+def _change(found: Sequence[Operation], last: int, point: Mapping[str, float], value: float, most: float) -> float:
+    """Change of a formula's value by the rounding of its arguments; 0 if it is large, as at a jump."""
+    changes = [0.0]
+    for factor in (1 - 2.0**-50, 1 + 2.0**-50):
+        with contextlib.suppress(ArithmeticError, ValueError):
+            changes.append(abs(float(Evaluation(found, {name: x * factor for name, x in point.items()})(last)) - value))
+    return max(change for change in changes if change < most or not change)
+
+
+def _check(given: Callable[..., Any], point: Mapping[str, float], value: float, allowed: float) -> None:
     """Check the formula's value at a point; where it is not finite, the function's must not be either.
 
     Python's division by zero raises where the quotient is infinite, and what follows may be finite.
@@ -242,7 +253,7 @@ def _check(given: Callable[..., Any], point: Mapping[str, float], value: float, 
         if not math.isfinite(value):
             return
         raise Unrecorded(f"raises {type(error).__name__} where its formula has a value") from None
-    is_same = abs(value - expected) <= OPERAND_ROUNDING * max(largest, abs(expected))
+    is_same = abs(value - expected) <= max(allowed, OPERAND_ROUNDING * abs(expected))
     if not (is_same if math.isfinite(value) else not math.isfinite(expected)):
         raise Unrecorded("has other values with numbers than while it is recorded")
 

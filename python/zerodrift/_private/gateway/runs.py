@@ -129,6 +129,8 @@ class Run:
                  outputs: Outputs | None = None, inputs: Inputs | None = None,
                  saved: Saved | None = None) -> None:
         self._core = core = core if inputs else core.for_run()      # with inputs, it is this run's own already
+        if settings.steps == lib.ZD_ADAPTIVE_STEPS and not settings.is_open and hasattr(core, "meet_breaks"):
+            core.meet_breaks(settings.t0, settings.t1)
         self.inputs = inputs
         self._watcher, self._outputs = watcher, outputs
         settings.given_jacobian = core.given_jacobian

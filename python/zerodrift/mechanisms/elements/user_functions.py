@@ -187,10 +187,10 @@ class Law:
                                  f"{each.argument} = {x:g}: "
                                  'give kind="smooth", with beyond="error", "line" or "period"', "user-function")
 
-    def breaks(self, parameters: Mapping[str, float]) -> Iterable[breaks.Break]:
+    def breaks(self, parameters: Mapping[str, float], span: tuple[float, float] | None = None) -> Iterable[breaks.Break]:
         """Times at which it jumps or bends, if it depends on t alone there."""
         if self.depends_on_time and self.formula is not None:
-            yield from breaks.of_formula(self.formula, parameters)
+            yield from breaks.of_formula(self.formula, parameters, span)
         elif self.depends_on_time:
             for each in self.tables:
                 if each.argument == "t":
@@ -258,7 +258,7 @@ class InputLaw:
     tables: Sequence[Spline] = ()
     constant = formula = None
     is_plain, has_nodes, why_called, kind = True, True, "", ""
-    breaks = staticmethod(lambda parameters: ())
+    breaks = staticmethod(lambda parameters, span: ())
 
     def __init__(self, name: str, initial: float, *, is_speed: bool) -> None:
         self.what, self.input, self.initial, self.is_speed = f"input {name!r}", name, initial, is_speed

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -130,6 +129,7 @@ class Laws:
     def __init__(self) -> None:
         self.rows: list[Any] = []       # of Call
         self._programs: list[Any] = []
+        self._breaks: dict[Any, list[breaks.Break]] = {}        # by span
 
     def add(self, row: Call) -> int:
         """Index under which the core calls it."""
@@ -158,10 +158,11 @@ class Laws:
         """User functions of constraints and forces, which stand before those of measures."""
         return [row for row in self.rows if not isinstance(row, Value)]
 
-    @functools.cached_property
-    def breaks(self) -> list[breaks.Break]:
-        """Times at which adaptive steps end."""
-        return sorted({each for row in self.acting for each in row.law.breaks(row.parameters)})
+    def breaks(self, span: tuple[float, float] | None = None) -> list[breaks.Break]:
+        """Times at which adaptive steps end: those that are known at once, and others in a span."""
+        if span not in self._breaks:
+            self._breaks[span] = sorted({each for row in self.acting for each in row.law.breaks(row.parameters, span)})
+        return self._breaks[span]
 
     def check_written(self) -> None:
         """Check that code can be generated for all that act: they must not be callables."""

@@ -132,6 +132,11 @@ class MechanismCore(CoreSystem):
         mine.c.data, mine._data, mine._numbers = data, (*self._data, handle, *programs, numbers, kept, data), numbers
         return mine
 
+    def meet_breaks(self, t0: float, t1: float) -> None:
+        """Find all breaks of user functions in the span of a run, to which this copy belongs."""
+        if self._law is not None:
+            self.c.breaks, self._breaks = breaks_of(self._law, (t0, t1))
+
     def many_bodies(self) -> Any:
         """Components of measures for the assembly of many free bodies."""
         components = ffi.addressof(lib, f"zd_{self.dimension}_components")

@@ -79,9 +79,9 @@ def table_of_programs(law: Law, sizes: dict[int, tuple[int, int]]) -> Any:
     return ffi.new("zd_law_program[]", rows), (kept, found)
 
 
-def breaks_of(law: Law | None) -> Any:
-    """The core's breaks of user functions, NULL if there are none, and the memory to keep with it."""
-    found = getattr(law, "breaks", ())
+def breaks_of(law: Any, span: tuple[float, float] | None = None) -> Any:
+    """The core's breaks of user functions, NULL if there are none, and the memory to keep with it; in a span all are known."""
+    found = law.breaks(span) if hasattr(law, "breaks") else ()
     times = [np.array(each, dtype=float) for _, each in found]
     if not times:
         return ffi.NULL, None
