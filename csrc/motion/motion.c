@@ -222,9 +222,14 @@ int zd_motion_energy_violation(zd_motion *motion, double *violation, double *kin
     return isfinite(*violation) ? ZD_DONE : ZD_NOT_FINITE;
 }
 
-int zd_motion_start_energy(zd_motion *motion)
+int zd_motion_balance(zd_motion *motion, double *violation)
 {
     double kinetic;
-    if (!zd_has_energy(&motion->system)) return ZD_DONE;
-    return zd_motion_energy_violation(motion, &motion->balance.initial, &kinetic);     /* E0 of (28), which is 0 here */
+    *violation = 0;
+    return zd_has_energy(&motion->system) ? zd_motion_energy_violation(motion, violation, &kinetic) : ZD_DONE;
+}
+
+int zd_motion_start_energy(zd_motion *motion)
+{
+    return zd_motion_balance(motion, &motion->balance.initial);     /* E0 of (28), which is 0 here */
 }

@@ -306,6 +306,7 @@ int zd_has_energy(const zd_system *system);
 int zd_has_input(const zd_system *system);          /* true if power is put in besides V; its integral is then part of the state */
 static inline double zd_motion_input(const zd_motion *motion) { return motion->balance.input ? *motion->balance.input : 0; }   /* J */
 int zd_motion_energy_violation(zd_motion *motion, double *violation, double *kinetic);     /* (28) */
+int zd_motion_balance(zd_motion *motion, double *violation);      /* its violation alone, 0 without a potential */
 int zd_motion_start_energy(zd_motion *motion);      /* E0 of (28), from the point */
 
 /* User functions of forces that read reactions and accelerations, which are solved together with the accelerations. */

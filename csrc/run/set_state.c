@@ -3,26 +3,17 @@
 #include "../safeguards/safeguards.h"
 #include "run.h"
 
-static int energy_violation(zd_run *run, double *violation)
-{
-    double kinetic;
-    zd_motion *motion = &run->motion;
-    const int status = zd_motion_accelerate(motion);
-    if (status || !zd_has_energy(&motion->system)) return status;
-    return zd_motion_energy_violation(motion, violation, &kinetic);
-}
-
 int zd_run_set_state(zd_run *run, const double *p, const double *v)
 {
     zd_motion *motion = &run->motion;
     zd_stepper *stepper = &run->stepper;
     double before = 0, after = 0;
     zd_closed_form_leave(motion);
-    int status = energy_violation(run, &before);
+    int status = zd_motion_balance(motion, &before);
     if (!status) status = zd_variables_use_chosen(stepper);
     if (!status) status = zd_stepper_set_state(stepper, stepper->t, p, v);
     if (!status) status = zd_start_check(run, motion->point->rhs);
-    if (!status) status = energy_violation(run, &after);
+    if (!status) status = zd_motion_balance(motion, &after);
     if (!status && run->settings.events) status = zd_watch_start(&run->watch);
     if (status) return status;
     motion->balance.initial += after - before;

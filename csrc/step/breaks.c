@@ -27,21 +27,41 @@ static double next_break(const zd_breaks *breaks, double t)
     return next;
 }
 
+/* s: distance from a break at which times are on one of its sides */
+static double rounding_at(const zd_step_loop *loop, double t)
+{
+    const zd_settings *settings = loop->settings;
+    const double largest = fmax(fabs(settings->t0), fmax(fabs(loop->stepper->t), settings->is_open ? 0 : fabs(settings->t1)));
+    return ZD_TIME_RESOLUTION * (isfinite(t) ? fmax(largest, fabs(t)) : largest);
+}
+
+/* A speed that has jumped with its law: velocities are projected, and the change of their energy is the work of its drive, not an error. */
+static int project(zd_step_loop *loop)
+{
+    zd_motion *motion = loop->motion;
+    double before, after = 0;
+    if (!zd_constraints(motion->point->system)) return ZD_DONE;
+    int status = zd_motion_balance(motion, &before);
+    if (!status) status = zd_path_end(loop->stepper, loop->stepper->t, 0);
+    if (!status) status = zd_motion_balance(motion, &after);
+    if (!status) motion->balance.initial += after - before;
+    return status;
+}
+
 int zd_pass_break(zd_step_loop *loop)
 {
     const zd_breaks *breaks = loop->motion->system.breaks;
-    const zd_settings *settings = loop->settings;
     zd_stepper *stepper = loop->stepper;
     if (!breaks || !zd_is_adaptive(loop)) return ZD_DONE;
-    const double t = stepper->t, largest = fmax(fabs(settings->t0), fmax(fabs(t), settings->is_open ? 0 : fabs(settings->t1)));
-    const double rounding = ZD_TIME_RESOLUTION * largest, next = next_break(breaks, t);
-    if (next - t <= 2 * rounding) stepper->t = fmin(next + rounding, loop->end);
-    loop->before_break = next_break(breaks, stepper->t + 4 * rounding) - rounding;
+    const double t = stepper->t, here = next_break(breaks, t - 2 * rounding_at(loop, t)), rounding = rounding_at(loop, here);
+    if (here - t <= 2 * rounding && t < here + rounding) stepper->t = fmin(here + rounding, loop->end);
+    const double next = next_break(breaks, stepper->t + 4 * rounding_at(loop, stepper->t));
+    loop->before_break = next - rounding_at(loop, next);
     if (stepper->t == t) return ZD_DONE;
     zd_point *point = loop->motion->point;
     point->t = stepper->t;
     point->known &= point->constant;
-    const int status = zd_constraints(point->system) ? zd_path_end(stepper, stepper->t, 0) : ZD_DONE;      /* speeds may have jumped */
+    const int status = project(loop);
     return status ? status : zd_renew(loop);
 }
 

@@ -138,6 +138,38 @@ def test_a_prescribed_speed_jumps_with_its_law(name, method):
         assert_close(sol["pin.angle"][-1], angle, 1e-7, scale=1.0)
 
 
+@pytest.mark.parametrize("name", ["kink", "ramp", "triangle"])
+@pytest.mark.parametrize("coordinates", ["joint", "absolute"])
+def test_a_prescribed_angle_bends_with_its_law(name, coordinates):
+    """The impulse on the second link of a double pendulum, by fixed steps that end at the bends, which are many."""
+    law = {"kink": lambda t: max(0.0, t - 1), "ramp": lambda t: float(np.clip(t - 0.5, 0, 1)),
+           "triangle": lambda t: abs(t % 1 - 0.5)}[name]
+    m = zd.Mechanism("double pendulum", gravity=(0, -9.81))
+    first = m.link("first", (0, 0), (1, 0), mass=1.0)
+    second = m.link("second", first.end, (2, 0), mass=1.0)
+    m.motor("drive", m.revolute("pin", m.ground, first.start), angle=law)
+    m.revolute("elbow", first.end, second.start)
+    system = m.system(coordinates)
+    found = [zd.simulate(system, 2.0, **options)["second.angle"][-1] for options in (
+        {"rtol": 1e-10, "atol": 1e-10}, {"integrator": "radau", "rtol": 1e-8, "atol": 1e-8}, {"step": 1e-4})]
+    # a fixed step has the impulse at its end: an error of first order in the step at each bend
+    assert_close(found[1], found[0], 1e-6, scale=1.0)
+    assert_close(found[2], found[0], 2e-3, scale=1.0)
+
+
+def test_shifted_and_narrow_pulses_of_a_period():
+    for width in (1e-2, 1e-4):
+        for law in (lambda t: (1 / width if (t - 0.3) % 1 < width else 0.0),               # noqa: B023
+                    lambda t: (1 / width if np.cos(2 * np.pi * (t - 0.3)) > np.cos(np.pi * width) else 0.0)):     # noqa: B023
+            m = zd.Mechanism("body")
+            body = m.particle("body", 1.0, at=(0, 0))
+            m.force("push", body, along=(1, 0), value=law)
+            run = zd.Run(m, rtol=1e-4, atol=1e-4)
+            run.advance_to(10.0)
+            for speed in (run["body.velocity.x"], zd.simulate(m, 10.0, rtol=1e-4, atol=1e-4)["body.velocity.x"][-1]):
+                assert_close(speed, 10.0, 1e-6, scale=1.0)
+
+
 def test_a_pulse_that_ends_with_the_run():
     sol = zd.simulate(pendulum(pulse), 7.01)
     assert sol.t[-1] == 7.01

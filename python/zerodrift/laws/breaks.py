@@ -17,13 +17,13 @@ MOST = 16               # lines that an operation may follow
 SAMPLES = 256           # of a comparison over a period, between which it changes at most once; 16 times as many over a span
 NEAREST = 32            # samples around which a comparison that nearly changes is examined
 Break = tuple[float, tuple[float, ...]]     # s: a period, 0 for none, and times
-Line = tuple[float, float]                  # value at t = 0, and slope
+Line = tuple[float, float, float]           # value at t = 0, slope, and the period with which the line begins anew; 0: none
 
 
-def of_spline(table: Spline, line: Line = (0.0, 1.0)) -> Iterable[Break]:
+def of_spline(table: Spline, line: Line = (0.0, 1.0, 0.0)) -> Iterable[Break]:
     """Breaks of a table whose argument is a line over time."""
     at, period = table.breaks()
-    start, slope = line
+    start, slope, _ = line
     if at.size and slope:
         yield abs(period / slope), tuple(np.sort((at - start) / slope).tolist())
 
@@ -43,26 +43,35 @@ def of_formula(formula: Formula, numbers: Mapping[str, float], span: tuple[float
         periods.append(_period(kind, content, [periods[each] for each in given], [lines[each] for each in given]))
         if kind == "comparison":
             left, right = (lines[each] for each in given)
-            for (a, slope), (b, other) in itertools.product(left, right):
-                if slope != other:
-                    yield 0.0, ((b - a) / (slope - other),)
-            if period := periods[-1]:
-                span_of = (period, 2 * period)
-            elif span and timed[-1] and not (left and right):
-                span_of = span
-            else:
+            crossings = [_crossing(*pair) for pair in itertools.product(left, right)]
+            yield from (each for each in crossings if each and each[1])
+            if (crossings and None not in crossings) or not timed[-1]:
                 continue
-            if found := _changes(formula, content, numbers, *span_of):
-                yield period or 0.0, found
+            period = periods[-1] or 0.0
+            if (within := (period, 2 * period) if period else span) and (found := _changes(formula, content, numbers, *within)):
+                yield period, found
         elif kind == "call" and content[0] == SPLINE.__name__:
             for line in lines[given[1]]:
-                yield from of_spline(formula.operations[given[0]][1], line)
+                if not line[2]:
+                    yield from of_spline(formula.operations[given[0]][1], line)
         elif kind == "call":
-            for start, slope in lines[given[0]]:
+            for start, slope, period in lines[given[0]]:
                 if slope and content[0] == "Abs":
-                    yield 0.0, (-start / slope,)
-                if period := _spacing(content[0], slope, [lines[each] for each in given[1:]]):
-                    yield period, ((-start / slope) % period,)
+                    yield period, ((-start / slope) % period if period else -start / slope,)
+                if spacing := _spacing(content[0], slope, [lines[each] for each in given[1:]]):
+                    yield spacing, ((-start / slope) % spacing,)
+
+
+def _crossing(first: Line, second: Line) -> Break | None:
+    """Meeting of two lines; without times if they are parallel; None if both vary, and one of them begins anew."""
+    (a, slope, period), (b, other, another) = first, second
+    shared = period or another
+    if shared and slope and other:
+        return None
+    if slope == other:
+        return 0.0, ()
+    at = (b - a) / (slope - other)
+    return shared, (at % shared if shared else at,)
 
 
 def _lines(kind: str, content: Any, lines: Sequence[Sequence[Line]], numbers: Mapping[str, float]) -> Sequence[Line]:
@@ -70,38 +79,44 @@ def _lines(kind: str, content: Any, lines: Sequence[Sequence[Line]], numbers: Ma
     given: list[Sequence[Line]] = [lines[each] for each in operands(kind, content)]
     if kind == "leaf":
         is_number = isinstance(content, str) and content in numbers
-        return [(0.0, 1.0)] if content == "t" else [(numbers[content], 0.0)] if is_number else []
+        return [(0.0, 1.0, 0.0)] if content == "t" else [(numbers[content], 0.0, 0.0)] if is_number else []
     if kind == "number":
-        return [(float(content), 0.0)]
+        return [(float(content), 0.0, 0.0)]
     if kind == "choice":
         values = [lines[each] for each in (*(value for _, value in content[0]), content[1])]
         return list(dict.fromkeys(itertools.chain(*values)))[:MOST] if all(values) else []
     if kind not in ("sum", "product", "call"):
         return []
-    found = []
+    found = list[Line]()
     for each in itertools.islice(itertools.product(*given), MOST):
+        among = {period for _, slope, period in each if slope}
+        if len(among) > 1:
+            return []
+        period = max(among, default=0.0)
         if kind == "sum":
-            found.append((sum(line[0] * float(factor) for line, (_, factor) in zip(each, content, strict=True)),
-                          sum(line[1] * float(factor) for line, (_, factor) in zip(each, content, strict=True))))
+            start, slope = (sum(line[i] * float(factor) for line, (_, factor) in zip(each, content, strict=True)) for i in (0, 1))
+            found.append((start, slope, period))
         elif kind == "product":
-            found += _product([(line, float(exponent)) for line, (_, exponent) in zip(each, content, strict=True)])
+            found += _product([(line, float(exponent)) for line, (_, exponent) in zip(each, content, strict=True)], period)
         elif content[0] == "Abs":
-            found += [each[0], (-each[0][0], -each[0][1])]
-        elif not any(slope for _, slope in each):
-            found.append((float(FUNCTIONS[content[0]](*(value for value, _ in each))), 0.0))
+            found += [each[0], (-each[0][0], -each[0][1], period)]
+        elif content[0] == "fmod" and not period and (spacing := _spacing("fmod", each[0][1], [[each[1]]])):
+            found.append((*each[0][:2], spacing))
+        elif not among:
+            found.append((float(FUNCTIONS[content[0]](*(value for value, *_ in each))), 0.0, 0.0))
     return found
 
 
-def _product(factors: Sequence[tuple[Line, float]]) -> list[Line]:
+def _product(factors: Sequence[tuple[Line, float]], period: float) -> list[Line]:
     """The product of powers of lines, at most one of which varies."""
     number, varying = 1.0, [line for line, _ in factors if line[1]]
-    for (value, slope), exponent in factors:
+    for (value, slope, _), exponent in factors:
         if (slope and exponent != 1) or len(varying) > 1:
             return []
         if not slope:
             number *= FUNCTIONS["Pow"](value, exponent)
-    start, slope = varying[0] if varying else (1.0, 0.0)
-    return [(number * start, number * slope)] if math.isfinite(number) else []
+    start, slope, _ = varying[0] if varying else (1.0, 0.0, 0.0)
+    return [(number * start, number * slope, period)] if math.isfinite(number) else []
 
 
 def _spacing(name: str, slope: float, others: Sequence[Sequence[Line]]) -> float:
@@ -118,11 +133,12 @@ def _period(kind: str, content: Any, periods: Sequence[float | None], lines: Seq
     """Period of an operation; 0 of a number, None if there is none."""
     if kind in ("leaf", "number"):
         return 0.0 if kind == "number" or not isinstance(content, str) else None
-    if kind == "call" and lines[0] and (slope := lines[0][0][1]):
+    if kind == "call" and lines[0] and (slope := lines[0][0][1]) and not lines[0][0][2]:
         if content[0] in ("sin", "cos", "tan"):
             return 2 * math.pi / abs(slope)
         return _spacing("fmod", slope, lines[1:]) or None if content[0] == "fmod" else None
-    known = [0.0 if line and not any(slope for _, slope in line) else period for period, line in zip(periods, lines, strict=True)]
+    known = [0.0 if line and not any(slope for _, slope, _ in line) else period
+             for period, line in zip(periods, lines, strict=True)]
     if None in known:
         return None
     lengths = [each for each in known if each]

@@ -37,6 +37,7 @@ class Event:
     then : callable or dict, optional
         Action at each occurrence, after which the run goes on: ``then(run)`` may set inputs and `Run.set_state`, as of
         `Run`; a dict has values of inputs by name. `simulate` and `Run` take it; inputs of a dict need not be named there.
+        A terminal event acts, too, and the last sample is the one before.
 
     Notes
     -----
