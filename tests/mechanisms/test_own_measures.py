@@ -97,7 +97,7 @@ def test_files_lifts_and_blocks_have_them(dimension, tmp_path):
 
 
 @pytest.mark.parametrize(("law", "of", "code", "sentence"), [
-    (lambda x: x, {"x": "pin.force"}, "wrong-measure", "'pin.force' is none"),
+    (lambda x: x, {"x": "pin.force"}, "wrong-measure", "'pin.force' is not one"),
     (lambda x: x, {"x": "power"}, "wrong-measure", "'power' is one of your own"),
     (lambda x: x, {"x": "nothing.force"}, "wrong-name", "there is no 'nothing'"),
     (lambda q: q, {}, "user-function", "q")])

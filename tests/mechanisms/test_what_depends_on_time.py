@@ -23,11 +23,12 @@ def test_they_are_refused_with_what_to_take(given):
     pin = m.revolute("pin", m.ground, link.start)
     for call, hint in ((lambda: hung(stiffness=given), "force= of a spring"),
                        (lambda: m.torsion_spring("k", pin, stiffness=given), "torque="),
+                       (lambda: hung(stiffness=5.0, damping=given), "lambda speed"),
                        (lambda: m.bushing("b", m.ground, link, at=(0, 0), stiffness=(1.0, given)), "stiffness of 'b'"),
                        (lambda: zd.Mechanism("g", gravity=(0, given)), r"force\(\)"),
                        (lambda: m.particle("p", given, at=(0, 0)), "acceleration"),
                        (lambda: m.body("p", given, 1.0), "acceleration")):
-        with refused("wrong-type", f"must not depend on time: .*{hint}" if "'" not in hint else hint):
+        with refused("wrong-type", f"must be a number, not a function: .*{hint}" if "'" not in hint else hint):
             call()
 
 

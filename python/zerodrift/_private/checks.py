@@ -47,7 +47,7 @@ def number(name: str, value: Any, *, above: float | None = None, least: float | 
 def constant(name: str, given: Any, hint: str) -> None:
     """Refuse functions, expressions and tables in the place of numbers, with a hint."""
     if any(callable(each) or hasattr(each, "free_symbols") for each in np.ravel(np.array(given, dtype=object))):
-        raise WrongType(f"{name} must be a number, as it must not depend on time: {hint}")
+        raise WrongType(f"{name} must be a number, not a function: {hint}")
 
 
 def _double(value: Real) -> float:

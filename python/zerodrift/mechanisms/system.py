@@ -116,8 +116,8 @@ class MechanismSystem(Reported):
     def _check_written(self) -> None:
         """Check that code can be generated: user functions must be no callables, and not read reactions."""
         if names := self._drawing.reactions():
-            raise WrongValue("equations can be written of user functions of t, positions and velocities, and those of "
-                             f"{self.name} read {', '.join(names)}", "not-portable")
+            raise WrongValue(f"user functions of {self.name} must read no reactions or accelerations for equations to be written "
+                             f"of them, and read {', '.join(names)}", "not-portable")
         self._tables.laws.check_written()
 
     @functools.cached_property

@@ -289,8 +289,9 @@ class Elements:
                 continue
             if read is None or len(read.quantities) != 1:
                 known = "" if read else f"; {checks.closest(measure, readable(elements[measure.partition('.')[0]]))}"
-                raise WrongValue(f"{what} must depend on scalar measures of positions and velocities, and {measure!r} is "
-                                 f"none{known}", "wrong-measure")
+                kinds = "" if reactions else " of positions and velocities"
+                raise WrongValue(f"{what} must depend on scalar measures{kinds}, and {measure!r} is not one{known}",
+                                 "wrong-measure")
             if read.is_rate and positions:
                 raise WrongValue(f"{what} must depend on measures of positions alone, and {measure!r} is a velocity",
                                  "wrong-measure")

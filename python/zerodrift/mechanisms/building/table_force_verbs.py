@@ -44,6 +44,7 @@ NEEDED = inspect.Parameter.empty
 SYMMETRIC = 1e-9        # of the largest entry of a matrix: asymmetry, at most
 HINT = ("its potential is one of positions alone; give force= of a spring, such as lambda t, length: k(t) * (length - 0.3), or "
         "torque= of a torsion spring, lambda t, angle: -k(t) * angle")
+DAMPER = "give force= of a spring, such as lambda speed: 5 * speed**3, or torque= of a torsion spring, with the opposite sign"
 FLAT = 1e-6             # sine of the angle below which directions are parallel
 
 
@@ -203,8 +204,7 @@ def _values(word: str, name: str, entry: ElementKind, given: Any) -> dict[str, f
     """Values of a parameter by path, from one number for all of its marker quantities or one for each."""
     if given is None:
         return {}
-    if word in ("stiffness", "torsion"):
-        checks.constant(f"{word} of {name!r}", given, HINT)
+    checks.constant(f"{word} of {name!r}", given, DAMPER if "damping" in word else HINT)
     paths = parameters(entry)[word]
     each = np.broadcast_to(given, len(paths)) if np.ndim(given) == 0 and len(paths) > 1 else given
     numbers = [each] if np.ndim(each) == 0 else checks.vector(f"{word} of {name!r}", each, len(paths)).tolist()
