@@ -25,14 +25,6 @@ static int take_step(zd_run *run)
     return zd_watch_after(&run->watch, zd_step_loop_is_corrected(&run->loop), &run->loop.end);
 }
 
-/* The next step, after a break of the system at which the last one has ended; none if that is the end of the run. */
-static int make_step(zd_run *run, int plain)
-{
-    zd_step_loop *loop = &run->loop;
-    const int status = zd_pass_break(loop);
-    return status || run->stepper.t == loop->end ? status : plain ? zd_step(loop) : take_step(run);
-}
-
 static int save(zd_run *run, zd_record *record, int forced)
 {
     const zd_settings *settings = &run->settings;
@@ -59,7 +51,7 @@ static int has_all_samples(const zd_run *run)
 int zd_run_advance(zd_run *run, zd_record *record, double seconds)
 {
     const double deadline = zd_seconds_now() + seconds;
-    const int plain = is_plain(&run->settings);
+    const int plain = is_plain(&run->settings), meets_breaks = run->motion.system.breaks && zd_is_adaptive(&run->loop);
     const double errors = zd_is_adaptive(&run->loop) ? ERRORS : 0;
     int64_t clock_step = (run->loop.step / CLOCK_EVERY + 1) * CLOCK_EVERY;    /* a slice makes at least one step */
     int status = run->outcome.status ? run->outcome.status : begin(run, record);
@@ -69,7 +61,8 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds)
             if (zd_seconds_now() >= deadline) return ZD_PAUSED;
             clock_step += CLOCK_EVERY;
         }
-        status = make_step(run, plain);
+        if (meets_breaks) status = zd_pass_break(&run->loop);
+        if (!status && (!meets_breaks || run->stepper.t != run->loop.end)) status = plain ? zd_step(&run->loop) : take_step(run);
         if (!status) status = zd_point_check_domain(run->motion.point, errors * run->settings.rtol, errors * run->settings.atol);
         if (!status && record) status = save(run, record, 0);
     }

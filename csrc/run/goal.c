@@ -47,7 +47,10 @@ static void aim_at_end(zd_run *run)
     zd_step_loop *loop = &run->loop;
     const double size = run->settings.step, grid = loop->t_begin + (double)(loop->step - loop->steps_before) * size;
     loop->end = run->settings.t1;
-    if (is_fixed(run) && fmin(grid, loop->end) - run->stepper.t > ZD_TIME_RESOLUTION * fmax(fabs(loop->t_begin), fabs(grid))) loop->step--;
+    const double rounding = ZD_TIME_RESOLUTION * fmax(fabs(loop->t_begin), fabs(grid));
+    if (!is_fixed(run) || !(fmin(grid, loop->end) - run->stepper.t > rounding)) return;
+    loop->step--;
+    loop->was_cut = 1;
 }
 
 /* After a terminal event, which is terminal again, once its function has left zero. */
