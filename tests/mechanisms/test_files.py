@@ -183,6 +183,14 @@ def test_without_its_mechanism_a_solution_has_what_was_recorded_and_says_why_not
         again["pin.torque"]
 
 
+def test_tables_within_functions_are_saved(tmp_path):
+    data = zd.table([0, 1, 2], [0, 1, 4.0], argument="x", kind="linear", beyond="hold")
+    m = crank(speed=lambda t: data(t) + np.interp(t, [0.0, 0.5, 1.0], [1.0, -1.0, 3.0]) * np.sin(t))
+    path = m.save(tmp_path / "m")
+    one, other = (zd.simulate(each, 1.0, step=0.01) for each in (m, zd.load(path)))
+    assert np.array_equal(one.p, other.p)
+
+
 # ---- expressions ----
 
 
@@ -230,6 +238,10 @@ def test_laws_that_cannot_be_saved(tmp_path):
     ([["sin"], "t"], "law has the operation"),
     ({"sin": "t"}, "which is not part of an expression"), (["+", None], "law has None"), (["+", True], "law has True"),
     (["/", 1, 0], "law has the operation '/'"), (["cases", 3], "law has the operation 'cases'"),
+    (["table", 3, "t"], "law has the operation 'table' of parts"),
+    (["table", {"knots": [[0, 0, 0, 0, 0]]}, "t"], "'table' of parts"),
+    (["table", {"argument": "t", "knots": [[1, 0, 0, 0, 0], [0, 0, 0, 0, 0]]}, "t"], "'table' of parts"),
+    (["table", {"argument": "t", "knots": [[0, 0, 0, 0, 0], [1, 0, 0, 0, 0]]}, ["<", "t", 1]], "'table' of parts"),
     (["sin", "t", "t", "t"], "law has the operation 'sin' of parts"), (["<", ["true"], 1], "law has the operation '<'"),
 ], ids=str)
 def test_what_is_not_an_expression(written, sentence):

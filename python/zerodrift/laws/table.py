@@ -226,6 +226,10 @@ class Spline:
         bends = np.abs(following - cubic) * np.maximum(h, np.append(h[1:], h[0])) ** 3 > BEND * np.ptp(value)
         return x[1:][self._jumps(1) | bends], float(x[-1] - x[0]) if repeats else 0.0
 
+    def to_json(self) -> dict[str, Any]:
+        """Its data in a file, which `spline_from_json` reads."""
+        return {"argument": self.argument, "knots": self.knots.tolist()}
+
     @functools.cached_property
     def _spline(self) -> Any:
         return programs.spline(self.knots)
@@ -274,6 +278,14 @@ class Table:
 
     def __repr__(self) -> str:
         return f"<table of {self.said}>"
+
+
+def spline_from_json(given: Any) -> Spline:
+    """The spline of a file; errors are of type ValueError and TypeError."""
+    given = dict(given)
+    knots = np.array(given.get("knots"), dtype=float)
+    _increasing("knots", checks.vector("knots", knots.ravel(), knots.size).reshape(-1, 5)[:, 0])
+    return Spline(knots.reshape(-1, 5), given.get("argument", ""))
 
 
 def from_json(given: Any) -> Table:

@@ -13,12 +13,14 @@ from typing import Any
 
 from ...errors import WrongValue
 from ...laws.formula import FUNCTIONS, Formula, leaf
+from ...laws.table import spline_from_json
 from ...symbolics.graph.graph import Graph, Node
 from ...symbolics.graph.plain_functions import NAMED, SPLINE, Plain, sign
 
 SIGNS = {"<": "<", "<=": "<=", ">": ">", ">=": ">=", "=": "==", "!=": "!="}
 WORDS = {sign: word for word, sign in SIGNS.items()}
 CALLED = tuple(name for name in FUNCTIONS if name != SPLINE.__name__)
+TABLE = "table"     # its data, and its argument
 DEEPEST = 100       # nested operations, at most, for Python's stack
 MAX_WORDS = 100_000     # of a formula, in which parts that are used twice are written twice
 LARGEST = int(1.7976931348623157e308)      # the largest double
@@ -29,12 +31,10 @@ CONSTANTS = {"pi": math.pi, "e": math.e, "true": True, "false": False}
 def to_json(formula: Formula, what: str, leaves: Mapping[str, Any] = MappingProxyType({})) -> Any:
     """Formula as lists of words and numbers; `leaves` replace names, and errors name its owner `what`."""
     written = list[Any]()
-    if formula.tables:
-        raise WrongValue(f"{what} must not read tables, to be saved", "not-portable")
     for kind, content in formula.operations:
         match kind:
             case "leaf":
-                made = leaves.get(content, content)
+                made = leaves.get(content, content) if isinstance(content, str) else content.to_json()
             case "number":
                 made = _number(content)
             case "sum":
@@ -48,6 +48,8 @@ def to_json(formula: Formula, what: str, leaves: Mapping[str, Any] = MappingProx
             case "choice":
                 made = ["cases", *([written[value], written[condition]] for condition, value in content[0]),
                         [written[content[1]], ["true"]]]
+            case "call" if content[0] == SPLINE.__name__:
+                made = [TABLE, *(written[each] for each in content[1][:2])]
             case _:
                 made = [content[0], *(written[each] for each in content[1])]
         written.append(made[1] if isinstance(made, list) and len(made) == 2 and made[0] in ("+", "*") else made)
@@ -110,6 +112,8 @@ class _Reading:
             return constant if isinstance(constant, bool) else graph.number(constant)
         if word == "nan" and not parts:
             return graph.number(math.nan)
+        if word == TABLE and len(parts) == 2:
+            return self._table(parts[0], self(parts[1], depth + 1))
         if word == "/" and len(parts) == 2 and all(type(part) is int for part in parts) and parts[1]:
             return graph.number(Fraction(*parts))
         if word == "cases" and parts and all(isinstance(part, list) and len(part) == 2 for part in parts):
@@ -118,11 +122,20 @@ class _Reading:
         if word in ("and", "or", "not"):
             return self._logic(word, read)
         if word not in OPERATIONS and word not in SIGNS and word not in CALLED:
-            known = [*OPERATIONS, *SIGNS, *CALLED, "cases", "and", "or", "not", *CONSTANTS, "/"]
+            known = [*OPERATIONS, *SIGNS, *CALLED, TABLE, "cases", "and", "or", "not", *CONSTANTS, "/"]
             raise WrongValue(f"{what} has the operation {word!r}; there are {', '.join(known)}", "unreadable-file")
         if not all(isinstance(part, Node) and part.kind not in ("comparison", "logic") for part in read):
             raise self.refusal(word)
         return self._of(word, read)
+
+    def _table(self, given: Any, x: Any) -> Node:
+        try:
+            table = spline_from_json(given)
+        except (TypeError, ValueError):
+            raise self.refusal(TABLE) from None
+        if not isinstance(x, Node) or x.kind in ("comparison", "logic"):
+            raise self.refusal(TABLE)
+        return self._graph.call(SPLINE, leaf(self._graph, table), x, self._graph.zero)
 
     def refusal(self, word: str) -> WrongValue:
         return WrongValue(f"{self._what} has the operation {word!r} of parts that it cannot have", "unreadable-file")
