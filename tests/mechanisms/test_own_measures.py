@@ -99,7 +99,7 @@ def test_files_lifts_and_blocks_have_them(dimension, tmp_path):
 @pytest.mark.parametrize(("law", "of", "code", "sentence"), [
     (lambda x: x, {"x": "pin.force"}, "wrong-measure", "'pin.force' is not one"),
     (lambda x: x, {"x": "power"}, "wrong-measure", "'power' is one of your own"),
-    (lambda x: x, {"x": "nothing.force"}, "wrong-name", "there is no 'nothing'"),
+    (lambda x: x, {"x": "absent.force"}, "wrong-name", "there is no 'absent'"),
     (lambda q: q, {}, "user-function", "q")])
 def test_what_they_cannot_read_is_named(law, of, code, sentence):
     m = scene()

@@ -141,6 +141,16 @@ def test_states_that_break_constraints_are_refused():
     assert_close(run.p, zd.systems.four_bar().p0, 1e-7, scale=1.0)     # back where it began, to the error of the method
 
 
+@pytest.mark.parametrize("steps", ["adaptive", "fixed", "radau"])
+def test_a_sample_at_the_instant_is_the_one_before(steps):
+    m = zd.Mechanism("body")
+    body = m.particle("body", 1.0, at=(0, 0))
+    m.start({body.velocity.x: 1.0})
+    turn = zd.Event(lambda t: t - 1.0, then=lambda run: run.set_state(v=-run.v))
+    sol = zd.simulate(m, 2.0, events=turn, t_eval=[0.5, 1.0, 1.5], **STEPS[steps])
+    assert_close(sol.v[:, 0], [1.0, 1.0, -1.0], 1e-15, scale=1.0)
+
+
 def test_refusals():
     with refused("in-use"):
         zd.simulate(arm(), 2.0, events=zd.Event("pin.angle", value=1.0, then=lambda run: run.step()))

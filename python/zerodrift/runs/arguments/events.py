@@ -47,8 +47,8 @@ class Event:
 
     With `then` an event is armed again once its function has left zero; several at one instant act in the order of the list, and
     one that acts three times within 1e-9 of the time that has passed is an error. A fixed step that is cut goes on by a short
-    one. Samples of steps have the states before and after `set_state`; `t_eval` and ``sol(t)`` have the one after. What a
-    function keeps itself is not in saved states.
+    one. Samples of steps have the states before and after `set_state`, and ``sol(t)`` at the instant that was located has the one
+    after; a time of `t_eval` at the instant has the one before. What a function keeps itself is not in saved states.
 
     Reactions and accelerations are those of the state at which the event is evaluated. Where an input jumps, they jump with
     it: the event happens there, and the state after the jump is reported.
