@@ -44,9 +44,15 @@ def number(name: str, value: Any, *, above: float | None = None, least: float | 
     return value
 
 
+def varies(given: Any) -> bool:
+    """True of functions, expressions, formulas and tables, and of arrays that have one."""
+    return any(callable(each) or hasattr(each, "free_symbols") or hasattr(each, "operations")
+               for each in np.ravel(np.array(given, dtype=object)))
+
+
 def constant(name: str, given: Any, hint: str) -> None:
     """Refuse functions, expressions and tables in the place of numbers, with a hint."""
-    if any(callable(each) or hasattr(each, "free_symbols") for each in np.ravel(np.array(given, dtype=object))):
+    if varies(given):
         raise WrongType(f"{name} must be a number, not a function: {hint}")
 
 

@@ -28,11 +28,11 @@ WORDS = {
     "force": ("float, callable or SymPy expression, in the place of `stiffness`",
               "Tension in N, negative where it pushes; of the same as the torque of `motor`. The spring's own ``length`` and "
               "``speed`` need no `of`: ``force=lambda length, speed: 500 * (length - 0.3)`` restores a length of 0.3 m. Its "
-              "work is an input of energy; only a stiffness has a potential."),
+              "work is an input of energy; only a number as stiffness has a potential."),
     "torque": ("float, callable or SymPy expression, in the place of `stiffness`",
                "Torque on the joint's second body in N m; of the same as that of `motor`. The joint's own ``angle`` and "
                "``speed`` need no `of`: ``torque=lambda angle, speed: -5 * angle`` restores the angle 0. Its work is an input of "
-               "energy; only a stiffness has a potential."),
+               "energy; only a number as stiffness has a potential."),
     "value": ("float, callable or SymPy expression",
               "In {unit}; of the same as the torque of `motor`."),
     "of": ("dict of str to measure", "Measures that the callable receives, by argument name.")}
@@ -42,8 +42,9 @@ KINDS = {"name": "str", "first": "Side", "second": "Side", "joint": "Joint | Mea
          "force": "LawLike | None", "torque": "LawLike | None", "of": "Bindings | None"}
 NEEDED = inspect.Parameter.empty
 SYMMETRIC = 1e-9        # of the largest entry of a matrix: asymmetry, at most
-HINT = ("its potential is one of positions alone; give force= of a spring, such as lambda t, length: k(t) * (length - 0.3), or "
-        "torque= of a torsion spring, lambda t, angle: -k(t) * angle")
+HINT = "its potential is one of positions alone; springs and torsion springs take functions"
+VARYING = (" As a function, such as ``lambda t: 500 + 20 * t``, it is of the same as the torque of `motor`; "
+           "its work is then an input of energy.")
 DAMPER = "give force= of a spring, such as lambda speed: 5 * speed**3, or torque= of a torsion spring, with the opposite sign"
 FLAT = 1e-6             # sine of the angle below which directions are parallel
 
@@ -109,18 +110,21 @@ def _add(m: Elements, force: type[TableForce], name: Any, given: dict[str, Any])
     ends = _ends(m, entry, name, given)
     if has(entry, *ROTATIONS) and not entry.at_joint:
         m._turning(name, what, *(end.body for end in ends))
-    place, law = _directions(m, entry, name, given, ends), law_word(entry)
+    place = _directions(m, entry, name, given, ends)
     place |= {"which": which} if (which := given.get("which")) else {}
-    if entry.is_spring and law:
-        _check_one(f"{what} {name!r}", law, given)
     stiffness: Any = given.get("stiffness")
+    drives = "stiffness" if entry.measure and checks.varies(stiffness) else law_word(entry)
+    if entry.is_spring and entry.measure:
+        _check_one(f"{what} {name!r}", entry.measure, given)
     if np.shape(stiffness) == (6, 6) and entry.axes == 3:
         place |= {"coupled": coupled} if (coupled := _coupled(name, given)).any() else {}
-    values = {path: value for word in parameters(entry) for path, value in _values(word, name, entry, given[word]).items()}
+    law = given.pop(drives, None)
+    values = {path: value for word in parameters(entry) for path, value in _values(word, name, entry, given.get(word)).items()}
     element = force(name, *ends, values=values, **place)
-    if given.get(law) is not None:
-        amend(element, law=m._law(f"{law} of {what} {name!r}", given[law], given["of"], reactions=True,
-                                  own=(element.joint or element) if entry.is_spring else None, which=element.which))
+    if law is not None:
+        amend(element, drives=drives, law=m._law(f"{drives} of {what} {name!r}", law, given["of"], reactions=True,
+                                                 own=(element.joint or element) if entry.is_spring else None,
+                                                 which=element.which))
     return m._add(element)
 
 
@@ -140,7 +144,7 @@ def _check_one(what: str, law: str, given: dict[str, Any]) -> None:
     has_law = given[law] is not None
     if has_law == (given["stiffness"] is not None):
         raise WrongType(f"{what} needs one of stiffness and {law}, not {'both' if has_law else 'none'}", "conflicting-arguments")
-    for word in ("length", "angle") if has_law else ("of",):
+    for word in ("length", "angle") if has_law else () if checks.varies(given["stiffness"]) else ("of",):
         if given.get(word) is not None:
             raise WrongType(f"{word} of {what} goes with {'stiffness' if has_law else law}", "conflicting-arguments")
     if not has_law and "angle" in given:
@@ -253,8 +257,10 @@ def _parameter(force: type[TableForce], word: str) -> tuple[str, str]:
     vectors = " or ".join(f"({size},)" for size in sorted(sizes - {1}))
     kind = f"float{', in space' * (1 in sizes)} or array_like {vectors}" if vectors else "float"
     where = " about its directions" if word.startswith("torsion") else " along its directions" if vectors else ""
-    is_slack = word == "stiffness" and not {"length", "angle"} & {*parameters(_either(force))}
-    return kind, f"In {_unit(word, _either(force))}{where}, at least 0.{' It is unstressed as drawn.' * is_slack}"
+    text = f"In {_unit(word, _either(force))}{where}, at least 0."
+    if word == "stiffness" and not vectors:
+        return f"{kind}, callable or SymPy expression", text + VARYING
+    return kind, text + " It is unstressed as drawn." * (word == "stiffness")
 
 
 def _example(force: type[TableForce]) -> list[str]:

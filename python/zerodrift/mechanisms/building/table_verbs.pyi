@@ -550,8 +550,9 @@ class TableVerbs(Elements):
         ----------
         name : str
         first, second : Point, Particle or name
-        stiffness : float
-            In N/m, at least 0.
+        stiffness : float, callable or SymPy expression
+            In N/m, at least 0. As a function, such as ``lambda t: 500 + 20 * t``, it is of the same as the torque of `motor`;
+            its work is then an input of energy.
         length : float, optional
             Unstressed length in m, at least 0; left out: as drawn.
         damping : float
@@ -559,7 +560,7 @@ class TableVerbs(Elements):
         force : float, callable or SymPy expression, in the place of `stiffness`
             Tension in N, negative where it pushes; of the same as the torque of `motor`. The spring's own ``length`` and
             ``speed`` need no `of`: ``force=lambda length, speed: 500 * (length - 0.3)`` restores a length of 0.3 m. Its work is
-            an input of energy; only a stiffness has a potential.
+            an input of energy; only a number as stiffness has a potential.
         of : dict of str to measure
             Measures that the callable receives, by argument name.
 
@@ -590,8 +591,9 @@ class TableVerbs(Elements):
         name : str
         joint : Joint, measure or name
             With one angle, which counts turns; or one of two, such as ``universal.angle1``.
-        stiffness : float
-            In N m/rad, at least 0.
+        stiffness : float, callable or SymPy expression
+            In N m/rad, at least 0. As a function, such as ``lambda t: 500 + 20 * t``, it is of the same as the torque of
+            `motor`; its work is then an input of energy.
         angle : float, optional
             Angle of the joint at which the spring is slack, in rad; left out: 0, as drawn.
         damping : float
@@ -599,7 +601,7 @@ class TableVerbs(Elements):
         torque : float, callable or SymPy expression, in the place of `stiffness`
             Torque on the joint's second body in N m; of the same as that of `motor`. The joint's own ``angle`` and ``speed``
             need no `of`: ``torque=lambda angle, speed: -5 * angle`` restores the angle 0. Its work is an input of energy; only
-            a stiffness has a potential.
+            a number as stiffness has a potential.
         of : dict of str to measure
             Measures that the callable receives, by argument name.
 

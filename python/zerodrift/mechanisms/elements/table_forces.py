@@ -109,6 +109,8 @@ class TableForce(Fixed):
         Parameters of a spring by path; ``length`` only if it is given.
     law : Law or None
         The force or torque of an element that is not a spring, or of a spring in the place of its stiffness.
+    drives : str
+        Argument that takes its law: "stiffness" of a spring, or that of `law_word`.
     axis : ndarray (2,) or None
         In the plane, in the first body's frame.
     frames : tuple of ndarray (3, 3), or None
@@ -121,6 +123,7 @@ class TableForce(Fixed):
 
     kind = ""                                       # name in the core's tables
     entries: ClassVar[dict[int, ElementKind]]       # entries of the tables by dimension
+    drives: str
     coordinate: ClassVar[str | None] = None         # "length" of an element between two points
     first: Any = None
     second: Any = None
@@ -137,7 +140,7 @@ class TableForce(Fixed):
         tables = {2: ELEMENTS, 3: SPACE_ELEMENTS}
         cls.entries = {dimension: table[cls.kind] for dimension, table in tables.items() if cls.kind in table}
         for entry in cls.entries.values():
-            cls.coordinate = "length" if has(entry, "distance") else None
+            cls.coordinate, cls.drives = "length" if has(entry, "distance") else None, "stiffness" if entry.is_spring else "value"
             for name, measure in _measures(entry).items():
                 setattr(cls, name, measure)
 
@@ -178,15 +181,11 @@ class TableForce(Fixed):
         return self.row.quantities
 
     @property
-    def drives(self) -> str:
-        """Argument that takes its law."""
-        return law_word(self.row)
-
-    @property
     def own(self) -> str:
-        """Measure along which the law of a spring acts; empty for others."""
-        return "" if not self.row.is_spring else f"{self.joint.name}.{self.which or 'angle'}" if self.joint else (
-            f"{self.name}.length")
+        """Measure along which the law of a spring acts; empty for others, and for a stiffness."""
+        if not self.row.is_spring or self.drives == "stiffness":
+            return ""
+        return f"{self.joint.name}.{self.which or 'angle'}" if self.joint else f"{self.name}.length"
 
     def length_with(self, numbers: Numbers) -> float:
         """Unstressed length; if not given, the distance in the drawing."""
@@ -198,7 +197,8 @@ class TableForce(Fixed):
         """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
         law = {} if self.law is None or self.law.constant is None else {self.drives: self.law.constant}
         return law | {path: self.length_with(now) if path == "length" else self.values[path]
-                      for each in parameters(self.row).values() for path in each if self.law is None or path in self.values}
+                      for word, each in parameters(self.row).items() for path in each
+                      if path in self.values or (path == "length" and self.drives == "stiffness")}
 
     def given(self) -> dict[str, Any]:
         """Parameters of a spring as its method takes them: a number, or one for each marker quantity."""

@@ -56,6 +56,16 @@ class ForceLaw(Call):
         return (node,)
 
 
+class Stiffness(ForceLaw):
+    """Generalized force: a stiffness times the first of its marker quantities."""
+
+    def __call__(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
+        return (self.sign * self._numbers(t, x, xdot) * x[0],)
+
+    def written(self, equations: Any, values: Sequence[Any], rates: Sequence[Any]) -> Any:
+        return equations.graph.times(super().written(equations, values, rates), values[0])
+
+
 class Value(ForceLaw):
     """Measure of one's own, which acts on nothing."""
 

@@ -309,10 +309,12 @@ class Tables:
             value = sign * self.numbers(element, parameter, element.law.constant)
             self.forces.append(entries.GeneralizedForce("constant", quantity, value=value, **more))
             return
-        quantities, picks = self._inputs(element.law.measures)
+        is_stiffness = element.drives == "stiffness"
+        quantities, picks = self._inputs(element.law.measures, [quantity] * is_stiffness)
         reads = tuple(dict.fromkeys(element.law.reactions.values()))
         picks += [(len(quantities) + reads.index(name), False) for name in element.law.reactions.values()]
-        row = self.laws.add(function_calls.ForceLaw(element.law, picks, self.parameters, sign))
+        row = self.laws.add((function_calls.Stiffness if is_stiffness else function_calls.ForceLaw)(
+            element.law, picks, self.parameters, sign))
         self.forces.append(entries.GeneralizedForce("law", quantity, law=row, inputs=quantities, reads=reads,
                                                     what=element.law.what, **more))
 
@@ -326,7 +328,8 @@ class Tables:
             stiffness, damping = (self.numbers(element, path, element.values.get(path, 0.0)) for path in paths(element.row)[i])
             if element.law is not None:
                 number = self._quantity_of(element.own) if element.own else self._quantity(f"{element.name} {i}", quantity)
-                self._generalized_force(element.drives, number, element, element.row.sign, joint=joint, damping=damping)
+                sign = -1 if element.drives == "stiffness" else element.row.sign
+                self._generalized_force(element.drives, number, element, sign, joint=joint, damping=damping)
                 continue
             number = coupled[i] if coupled else self._quantity(f"{element.name} {i}", quantity)
             self.forces += [entries.GeneralizedForce("spring", number, float(stiffnesses[i, j]), inputs=[other])

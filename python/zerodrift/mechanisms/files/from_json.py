@@ -242,8 +242,9 @@ def _table_force(force: type[TableForce], dimension: int) -> Callable[..., None]
             given["axis"] = first.body.pose.direction(stored["frames"][0][0])
         if coupled := given.pop("coupled", None):
             given["stiffness"] = np.array(coupled, dtype=float) + np.diag([*given["stiffness"], *given.pop("torsion")])
-        if law in given:
-            given[law], given["of"] = law_and_of(given[law], law)
+        for word in (law, "stiffness"):
+            if isinstance(given.get(word), Mapping):
+                given[word], given["of"] = law_and_of(given[word], word)
         amend(getattr(m, force.kind)(name, *places, **given), **stored)
 
     place = ("frames" if dimension == 3 else "axis",) if entry.axes else ()
