@@ -9,6 +9,7 @@ import re
 import numpy as np
 import pytest
 
+import digits
 import written_laws
 import zerodrift as zd
 from native_systems import needs_compiler
@@ -35,22 +36,20 @@ def law_of(function):
     return Law("law", function, of={name: f"{name}.angle" for name in names if name != "t"})
 
 
-def in_core(law):
-    """Function of t and of measures that is evaluated by the core."""
+def in_core(law, kind=function_calls.ForceLaw):
+    """Function of t and of measures that is evaluated by the core: its value, and of a constraint its derivatives."""
     k = len(law.measures)
-    row = function_calls.ForceLaw(law, [(i, False) for i in range(k)], {})
+    row = kind(law, [(i, False) for i in range(k)], {})
     written = function_programs.program_of(row, k)
     program = programs.expressions(written.program)
     numbers = programs.with_addresses(np.array(written.numbers), written.splines)
 
     def values(t, x):
-        return programs.reader(program, numbers, t, x, np.zeros_like(x))()[:, 0]
+        return programs.reader(program, numbers, t, x, np.zeros_like(x))().squeeze()
     return values
 
 
-@pytest.mark.parametrize("function", written_laws.RECORDED,
-                         ids=lambda function: getattr(function, "__name__", type(function).__name__))
-def test_the_core_has_the_values_of_the_function(function):
+def check_values(function):
     law = law_of(function)
     assert law.formula is not None, law.why_called
     chance, names = np.random.default_rng(3), names_of(function)
@@ -66,6 +65,43 @@ def test_the_core_has_the_values_of_the_function(function):
     assert_close(found, expected, LAW_ROUNDING, scale=1.0)
     by_formula = [law.value(t[i], points[i, own], {}) for i in range(len(points))]
     assert_close(by_formula, expected, LAW_ROUNDING, scale=1.0)
+
+
+def check_slopes(function):
+    """Check derivatives of the graph against differences of the formula in 50 digits."""
+    law = law_of(function)
+    chance, own = np.random.default_rng(4), [name for name in law.names if name != "t"]
+    points = chance.uniform(-3, 5, (30, 1 + len(own)))
+    found = in_core(law, function_calls.Holonomic)(points[:, 0].copy(), points[:, 1:].copy())
+    for point, (_, *slopes) in zip(points, found, strict=True):
+        known = dict(zip(("t", *own), point, strict=True))
+        for name, slope in zip((*own, "t"), slopes, strict=False):
+            assert_close(slope, digits.slope(law.formula, known, name), 1e-12, scale=1.0)
+
+
+@pytest.mark.parametrize("function", written_laws.RECORDED,
+                         ids=lambda function: getattr(function, "__name__", type(function).__name__))
+def test_the_core_has_values_and_derivatives_of_the_function(function):
+    check_values(function)
+    check_slopes(function)
+
+
+@pytest.mark.parametrize("shape", written_laws.SHAPES)
+def test_functions_of_every_shape_are_recorded(shape):
+    for body in written_laws.BODIES:
+        function = written_laws.written(written_laws.SHAPES[shape], body)
+        check_values(function)
+        check_slopes(function)
+
+
+@pytest.mark.parametrize(("shape", "reason"), written_laws.WITH_STATE.items())
+def test_functions_with_state_are_called_whatever_they_compute(shape, reason):
+    for body in written_laws.BODIES:
+        law = law_of(written_laws.written(shape, body))
+        assert law.formula is None
+        assert re.search(reason, law.why_called), law.why_called
+    assert not written_laws.HISTORY
+    assert written_laws.STATE == {"last": 0.0}
 
 
 @pytest.mark.parametrize(("function", "reason"), written_laws.CALLS, ids=[reason for _, reason in written_laws.CALLS])

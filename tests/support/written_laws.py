@@ -3,12 +3,14 @@
 import bisect
 import collections
 import dataclasses
+import enum
 import functools
 import itertools
 import math
 import operator
 import random
 import time
+import typing
 from math import exp, sqrt
 
 import numpy as np
@@ -206,6 +208,73 @@ class Contact:
         return self.k * abs(min(x, 0.0)) ** self.power
 
 
+class Kept:
+    """Object with all that copies of objects have: private attributes of its class, methods of every kind, names of tables."""
+
+    _gain, __offset = 3.0, [1.0, 2.0]
+
+    def __init__(self):
+        self.tables, self.written, self.others = {"a": [1.0]}, [], [random.Random(i) for i in range(60)]
+
+    @functools.cached_property
+    def half(self):
+        return self._gain / 2
+
+    @classmethod
+    def of_class(cls):
+        return cls._gain
+
+    def __getattr__(self, name):
+        if name != "missing":
+            raise AttributeError(name)
+        return 4.0
+
+    def __floordiv__(self, x):
+        return self.__offset[1] * x
+
+    def __del__(self):
+        HISTORY.append("deleted")
+
+    def __call__(self, x):
+        return self.half * x + self.of_class() * self.missing + (self // x if type(x) in (int, float) else 0.0)
+
+
+class Stateful:
+    _seen: typing.ClassVar = []
+
+    def __init__(self, method):
+        self.method = method
+
+    def __getattr__(self, name):
+        return HISTORY.append(name) or 1.0 if name == "missing" else object.__getattribute__(self, name)
+
+    def __mod__(self, x):
+        return HISTORY.append(x) or 1.0
+
+    def __eq__(self, other):
+        return self is other or HISTORY.append(other) is None
+
+    __hash__ = object.__hash__
+
+    def __call__(self, x):
+        return {"class": lambda: self._seen.append(x), "missing": lambda: self.missing, "mod": lambda: self % 2, "eq":
+                lambda: 2.0 if self == 3 else 1.0}[self.method]() and x
+
+
+class Tagged(typing.NamedTuple):
+    k: float
+
+    def __call__(self, x):
+        return HISTORY.append(x) or x
+
+
+class Member(enum.Enum):
+    ONE = 1.0
+
+    def of(self, x):
+        return HISTORY.append(x) or x
+
+
 class Pid:
     def __init__(self):
         self.sum = 0.0
@@ -285,6 +354,8 @@ RECORDED = [
     lambda x: 3.0, lambda x: (x if x > 0 else 0.0) + (x if x > 1 else 0.0), lambda t: np.sin(t),
     lambda x: np.interp(x, TIMES, VALUES) + np.interp(2 * x - 1, CURVE["speed"], CURVE["torque"]) ** 2,
     lambda x: float(x) + float(np.sin(x)) + int(x > 1) + (x, -x)[x > 0], cached, lambda x: next_to(x)(x),
+    Kept(), lambda x: math.sqrt(max(0.0, x)) + np.sqrt(np.maximum(2 * x - 1, 0)) * x + (0.5 * max(0, x) * x) ** 0.5,
+    lambda x: (x * x) ** 1.5, lambda x: np.asarray(x, float) + np.array([x, 1], float).sum(),
      np.sin, CURVE["speed"][1] * Motor(2.0).stall and (lambda x: CURVE["torque"][1] * x),
 ]
 
@@ -360,3 +431,55 @@ CALLS = [
     (lambda x: collections.Counter([1])[1] * x, "uses collections.Counter"),
     (lambda x: np.array([x]), r"returns shape \(1,\)"), (lambda x: "text", "returns str"),
 ]
+
+
+# Bodies, and what people write around them
+
+BODIES = [
+    "x * v - 0.3 * x ** 3", "math.sin(2 * x) * math.exp(-v * v)", "max(x, v) - min(0.5, x, -v)",
+    "math.sqrt(max(0.0, x)) + abs(v) ** 1.5",
+    "1.0 if 0 < x < 1.5 else v", "x if x > 0 and v > 0 or x < -2 else 2 * v", "3.0 if x in (0.5, 2.0) or not v > 0 else x * v",
+    "VALUES[bisect.bisect(TIMES[1:], x)] * v", "(x and v) + (x or 1.0)", "np.where((x > 0) & (v < 1), x * v, np.cos(x))",
+    "sum(g * x ** i for i, g in enumerate(GAINS)) + v", "np.clip(x, -0.5, v) + np.interp(v, TIMES, VALUES)",
+    "np.array([x, v]) @ np.array([[2.0, 1], [0, x]]) @ [1.0, v]", "(x + math.pi) % (2 * math.pi) - v // 0.7 + math.hypot(x, v)",
+    "sorted([x, v, 0.3])[1] + float(x > v) * math.copysign(2, v + 9)",
+    "math.atan2(v, x) * math.tanh(x) + next((g for g in GAINS if g > x), 3.0)",
+]
+SHAPES = {
+    "plain": "law = lambda x, v: {}",
+    "early return": "def law(x, v):\n if x > 1.2 and v < 2:\n  return 0.5 * v\n if v == 0:\n  return 1\n return {}",
+    "nested if": "def law(x, v):\n y = 0\n if x > v:\n  if v > 0.3:\n   y = {}\n  else:\n   y = x\n"
+                 " elif x < -1:\n  y = -v\n return y",
+    "loop": "def law(x, v):\n y = 0.0\n for g in GAINS[:2]:\n  v = -v\n  y += g * ({})\n return y",
+    "while": "def law(x, v):\n n, y = 2, []\n while n:\n  n -= 1\n  y.append(n * ({}))\n return y[0] + y[-1]",
+    "closure": "def of(k):\n def law(x, v):\n  return k * ({})\n return law\nlaw = of(2.0)",
+    "inner": "def law(x, v):\n y = 0\n def add(z):\n  nonlocal y\n  y += z\n add({})\n add(x)\n return y",
+    "partial": "def of(k, x, v, *, m=1.0):\n return k * m + ({})\nlaw = functools.partial(of, 0.5, m=K)",
+    "class": "class Of:\n k = 2.0\n def __init__(self, m):\n  self.m = m\n def at(self, x, v):\n  return {}\n"
+             " def __call__(self, x, v):\n  return self.k * self.at(x, v) + self.m\nlaw = Of(0.3)",
+    "method": "class Of:\n @staticmethod\n def at(x, v):\n  return {}\n @property\n def k(self):\n  return CURVE['speed'][2]\n"
+              " def torque(self, x, v):\n  return self.k * self.at(x, v)\nlaw = Of().torque",
+    "composed": "parts = [lambda x, v: {}, math.hypot, lambda x, v: -v]\nlaw = lambda x, v: sum(part(x, v) for part in parts)",
+}
+WITH_STATE = {      # each with the reason
+    "def law(x, v):\n try:\n  return {}\n except ZeroDivisionError:\n  return 0.0": "try",
+    "class Of:\n s = 0.0\n def __call__(self, x, v):\n  self.s += x\n  return self.s + ({})\nlaw = Of()": "sets an attribute",
+    "class Of:\n def __init__(self):\n  self.s = [0.0, 0.0]\n def __call__(self, x, v):\n  self.s[0] += x\n"
+    "  return self.s[0] + ({})\nlaw = Of()": "changes a list",
+    "def law(x, v, s=[]):\n s.append(x)\n return {}": "changes a list",
+    "def law(x, v):\n STATE['last'] = 0.9 * STATE['last'] + x\n return {}": "changes a dict",
+    "def law(x, v):\n law.n = 1\n return {}": "sets an attribute",
+    "def of():\n n = 0\n def law(x, v):\n  nonlocal n\n  n += 1\n  return {}\n return law\nlaw = of()": "sets the name n",
+    "def law(x, v):\n return random.gauss(0, 1) + ({})": "gauss|Random",
+    "noise = np.random.default_rng(1).normal\nlaw = lambda x, v: noise() + ({})": "normal",
+    "law = lambda x, v: time.perf_counter() + ({})": "perf_counter",
+    "add = HISTORY.append\nlaw = lambda x, v: add(x) or ({})": "append",
+    "def law(x, v):\n for g in iter(lambda: STATE.update(last=x), None):\n  pass\n return {}": "changes a dict",
+}
+
+
+def written(shape, body):
+    """Function of this shape."""
+    space = dict(globals())
+    exec(shape.format(body), space)
+    return space["law"]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import math
+import operator
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
@@ -180,7 +182,8 @@ class Evaluation:
             case "number":
                 return content if isinstance(content, int) else float(content)
             case "sum":
-                return sum(values[each] if number == 1 else values[each] * float(number) for each, number in content)
+                return functools.reduce(operator.add, (values[each] if number == 1 else values[each] * float(number)
+                                                       for each, number in content))       # -0.0 alone stays so
             case "product":
                 return math.prod(_power(values[each], exponent) for each, exponent in content)
             case "call":

@@ -35,8 +35,7 @@ MODULES = (math, operator, bisect, itertools)       # whose functions have no st
 HANDLERS = {"SETUP_FINALLY", "SETUP_WITH", "PUSH_EXC_INFO"}
 STATE = {"STORE_GLOBAL": "sets a global name", "DELETE_GLOBAL": "sets a global name", "STORE_ATTR": "sets an attribute",
          "DELETE_ATTR": "sets an attribute", "IMPORT_NAME": "imports a module"}
-OPERATORS = {f"__{name}__" for name in ("call", "getitem", "len", "iter", "contains", "add", "radd", "sub", "rsub", "mul", "rmul",
-                                        "truediv", "rtruediv", "neg", "pow", "matmul", "abs", "bool", "lt", "le", "gt", "ge")}
+UNUSED = {"__init__", "__new__", "__del__", "__getattribute__", "__setattr__"}     # methods of classes that copies do not have
 FILES = ("save", "load", "set", "from", "gen", "memmap", "print", "show", "info", "test", "get", "buffer", "apply", "vectorize")
 NESTED = 50         # objects within objects, at most
 SIZE = 10_000       # entries of a list, a dict, an array that is read, at most
@@ -59,15 +58,20 @@ class Outside:
 
     def of(self, value: Any) -> Any:
         """Stand-in or copy of a value."""
-        if isinstance(value, PLAIN):
+        if isinstance(value, PLAIN) and not _has_methods(type(value)):
             self.has_values = self.has_values or isinstance(value, int | float | np.generic)
             return value
         if id(value) not in self._copies:
             self._depth += 1
             if self._depth > NESTED:
                 raise Unrecorded("reads objects that are nested too deeply")
-            self._copies[id(value)] = value, self._copied(value)
-            self._depth -= 1
+            try:
+                self._copies[id(value)] = value, self._copied(value)
+            except Unrecorded:
+                self._copies.pop(id(value), None)       # an unfinished copy
+                raise
+            finally:
+                self._depth -= 1
         return self._copies[id(value)][1]
 
     def changed(self) -> str:
@@ -93,7 +97,8 @@ class Outside:
                                      **{name: self.of(each) for name, each in value.keywords.items()})
         if isinstance(value, list | tuple | dict | set | frozenset) and len(value) <= SIZE:
             return self._container(value)
-        if isinstance(value, np.ufunc | enum.EnumType) or (isinstance(value, type) and issubclass(value, BaseException)):
+        if isinstance(value, np.ufunc) or (isinstance(value, type) and (
+                issubclass(value, BaseException) or (isinstance(value, enum.EnumType) and not _has_methods(value)))):
             return value
         name = str(getattr(value, "__name__", ""))
         if is_hashable and (value in FREE or any(getattr(module, name, None) is value for module in MODULES)):
@@ -117,8 +122,9 @@ class Outside:
 
     def _container(self, value: Any) -> Any:
         copy: Any
-        if type(value) not in (list, tuple, dict, set, frozenset) and not hasattr(value, "_fields"):
-            raise Unrecorded(f"reads a {type(value).__name__}")
+        kind = type(value)
+        if (kind not in (list, tuple, dict, set, frozenset) and not hasattr(value, "_fields")) or _has_methods(kind):
+            raise Unrecorded(f"reads a {kind.__name__}")
         if isinstance(value, dict):
             copy = {}
             self._copies[id(value)] = value, copy
@@ -162,25 +168,25 @@ class Outside:
         module = getattr(value, "__module__", None)
         is_own = isinstance(kind, type) and kind.__flags__ & (1 << 9)      # made by a class statement: Py_TPFLAGS_HEAPTYPE
         is_usual = type(kind) in (type, abc.ABCMeta) and not hasattr(kind.__init_subclass__, "__func__")
-        if isinstance(value, type) or not is_own or not is_usual or not hasattr(value, "__dict__") or hasattr(value, "__next__"):
+        if (isinstance(value, type) or not is_own or not is_usual or not hasattr(value, "__dict__") or hasattr(value, "__next__")
+                or kind.__getattribute__ is not object.__getattribute__):
             raise Unrecorded(f"uses {module}.{named}" if module and module != "builtins" else f"uses {named}")
-        methods: dict[str, Any] = {}
-        copy_type = type(kind.__name__, (kind,), methods)
+        copy_type = type(kind.__name__, (kind,), {"__del__": lambda _: None})
         copy: Any = object.__new__(copy_type)
         self._copies[id(value)] = value, copy
         for base in reversed(kind.__mro__[:-1]):
             for name, each in vars(base).items():
-                if isinstance(each, types.FunctionType):
-                    if name in OPERATORS or not name.startswith("__"):
-                        setattr(copy_type, name, _Method(each, self))
-                elif isinstance(each, property):
-                    setattr(copy_type, name, property(_Method(each.fget, self).function))
-                elif isinstance(each, staticmethod):
-                    setattr(copy_type, name, staticmethod(_Refused.unless(self, each.__func__)))
-                elif not name.startswith("_") and not hasattr(type(each), "__get__"):
+                if name in UNUSED or (name.startswith("__") and not isinstance(each, types.FunctionType)):
+                    continue
+                if isinstance(each, types.FunctionType | functools._lru_cache_wrapper):
+                    setattr(copy_type, name, _Method(each, self))
+                elif isinstance(each, property | functools.cached_property):
+                    method = each.fget if isinstance(each, property) else each.func
+                    setattr(copy_type, name, property(_Method(method, self).function))
+                elif isinstance(each, staticmethod | classmethod):
+                    setattr(copy_type, name, type(each)(_Refused.unless(self, each.__func__)))      # type: ignore[arg-type]
+                else:
                     setattr(copy_type, name, _Refused.unless(self, each))
-                elif isinstance(each, classmethod):
-                    setattr(copy_type, name, _Refused(f"uses the class method {name}"))
         for name, each in vars(value).items():
             copy.__dict__[name] = _Refused.unless(self, each)
         self.has_values = True
@@ -195,7 +201,7 @@ class _Method:
         self._method, self._outside = method, outside
 
     def __get__(self, owner: Any, kind: Any = None) -> Any:
-        return types.MethodType(self._outside.of(self._method), owner)
+        return types.MethodType(_Refused.unless(self._outside, self._method), owner)    # Python drops errors of the search
 
     def function(self, owner: Any) -> Any:
         return self._outside.of(self._method)(owner)
@@ -218,7 +224,7 @@ class _Refused:
     def __getattr__(self, name: str) -> Any:
         raise Unrecorded(self.__dict__["reason"])
 
-    def _refuse(self, *_: Any) -> Any:
+    def _refuse(self, *_: Any, **__: Any) -> Any:
         raise Unrecorded(self.__dict__["reason"])
 
     __call__ = __getitem__ = __iter__ = __len__ = __bool__ = __add__ = __radd__ = __mul__ = __rmul__ = __sub__ = _refuse
@@ -266,7 +272,8 @@ def _of_numpy(given: Callable[..., Any]) -> Callable[..., Any]:
     @functools.wraps(given, updated=())
     def called(*inputs: Any, **more: Any) -> Any:
         if makes and more.get("dtype", float) in (float, np.float64, "float", "f8", "d"):
-            more = {**more, "dtype": object} if given.__name__ != "atleast_1d" else more
+            has_type = given.__name__ == "atleast_1d" or (len(inputs) > 1 and not given.__name__.startswith("full"))
+            more = more if has_type else {**more, "dtype": object}
         return of_array(given(*inputs, **more))
     return called
 
@@ -293,6 +300,12 @@ def _checked(code: types.CodeType, free: set[str]) -> list[str]:
         if isinstance(constant, types.CodeType):
             found.update(dict.fromkeys(_checked(constant, set(constant.co_freevars) & free)))
     return [*found]
+
+
+def _has_methods(kind: type) -> bool:
+    """True of a user's class of numbers, tuples or members that has methods, which would not be copies."""
+    return any(isinstance(each, types.FunctionType) and each.__module__ == base.__module__ for base in kind.__mro__
+               if base.__module__ not in ("enum", "fractions", Table.__module__) for each in vars(base).values())
 
 
 def _is_hashable(value: Any) -> bool:
@@ -373,6 +386,6 @@ MATH = IN_NUMPY | {"pow": "power"} | {name: name for name in (
 STAND_INS: dict[Any, Any] = {
     getattr(math, name): _of_math(name, of) for name, of in MATH.items() if hasattr(math, name)}
 STAND_INS |= {math.log: _log, math.hypot: _hypot, max: _extreme(max, largest), min: _extreme(min, smallest),
-              isinstance: _as_float(isinstance), hasattr: _as_float(hasattr), type: _class(type, lambda x: float),
+              isinstance: _as_float(isinstance), hasattr: _as_float(hasattr), type: _class(type, lambda x: STAND_INS[float]),
               float: _class(float, lambda x: x * 1),
               math.fsum: sum, math.floor: math.floor, math.ceil: math.ceil, math.trunc: math.trunc}

@@ -97,7 +97,7 @@ class Law:
 
     def record(self, parameters: Mapping[str, float]) -> None:
         """Record a function; numbers that it reads from outside count as they are now."""
-        if self._function is not None and not hasattr(self._function, "written") and not isinstance(self._function, Expression):
+        if self._function is not None and not self._is_written and not isinstance(self._function, Expression):
             self.recorded = recording.record(self._function, self._names, parameters, self.formula)
             self.formula, self.why_called, _ = self.recorded
 
@@ -177,7 +177,9 @@ class Law:
     @property
     def tables(self) -> list[Spline]:
         """Splines of the tables that it reads, or of the one that it is."""
-        return getattr(self._function, "tables", []) if self.formula is None else self.formula.tables
+        if self.formula is not None:
+            return self.formula.tables
+        return getattr(self._function, "tables", []) if self._is_written else []
 
     def check_smooth(self, derivatives: int) -> None:
         """Check that tables do not jump, with 1 also that their slopes do not."""
@@ -197,9 +199,14 @@ class Law:
                     yield from breaks.of_spline(each)
 
     @property
+    def _is_written(self) -> bool:
+        """True of a table and of functions made here, which write their nodes."""
+        return type(self._function).__module__.startswith("zerodrift.") and hasattr(self._function, "written")
+
+    @property
     def has_nodes(self) -> bool:
         """True if `written` gives its node: the computation of what is called is known to Python only."""
-        return self._function is None or self.formula is not None or hasattr(self._function, "written")
+        return self._function is None or self.formula is not None or self._is_written
 
     def written(self, equations: Any, x: Iterable[Any]) -> Any:
         """Node of its value, from the nodes x of its measures."""
@@ -211,7 +218,7 @@ class Law:
 
     def __getstate__(self) -> dict[str, Any]:
         """A function that could be recorded is sent as its formula, which other processes have without its module."""
-        is_formula = self.formula is not None and not hasattr(self._function, "written")
+        is_formula = self.formula is not None and not self._is_written
         return {**vars(self), "_function": None} if is_formula else vars(self)
 
     def __deepcopy__(self, known: Any) -> Law:

@@ -146,6 +146,24 @@ class Graph:
         number = exponent.content[0]
         return self.product([(base, int(number) if number == int(number) else number)])
 
+    def with_less(self, node: Node, base: Node) -> Node:
+        """A product with the exponent of a factor less one."""
+        return self.product((each, exponent - (each is base)) for each, exponent in node.content)
+
+    def chained(self, outer: Node, rate: Node) -> Node:
+        """Product of an outer derivative and a rate; zero in cases of the rate that are, where the outer one may be infinite."""
+        if rate.kind == "sum" and len(rate.content) == 1:
+            (rate, number), = rate.content
+            return self.sum([(self.chained(outer, rate), number)])
+        for choice, exponent in rate.content if rate.kind == "product" else ((rate, 1),):
+            if choice.kind == "choice" and exponent == 1:
+                cases, otherwise = choice.content
+                if self.zero in (otherwise, *(value for _, value in cases)):
+                    more = outer if rate is choice else self.times(outer, self.with_less(rate, choice))
+                    return self.choice(tuple((condition, self.chained(more, value)) for condition, value in cases),
+                                       self.chained(more, otherwise))
+        return self.times(outer, rate)
+
     # ---- all other kinds ----
 
     def call(self, function: Any, *arguments: Node) -> Node:
@@ -252,7 +270,7 @@ class Derivative(_NodeFunction):
             case "call":
                 function, arguments = node.content
                 rates = [(k, self(argument)) for k, argument in enumerate(arguments)]
-                return graph.plus(*(graph.times(graph.slope(function, k, arguments), rate)
+                return graph.plus(*(graph.chained(graph.slope(function, k, arguments), rate)
                                     for k, rate in rates if rate is not graph.zero))
             case "choice":
                 cases, otherwise = node.content
@@ -270,7 +288,7 @@ class Derivative(_NodeFunction):
         rate = self(base)
         if rate is self._graph.zero:
             return rate
-        return self._graph.product([*node.content, (base, -1), (rate, 1)])
+        return self._graph.chained(self._graph.with_less(node, base), rate)
 
 
 class Replacement(_NodeFunction):
