@@ -22,6 +22,7 @@ static int take_step(zd_run *run)
     if (settings->events) zd_watch_before(&run->watch);
     status = zd_step(&run->loop);
     if (status || !settings->events) return status;
+    run->goal.end = run->loop.end;
     return zd_watch_after(&run->watch, zd_step_loop_is_corrected(&run->loop), &run->loop.end);
 }
 
@@ -48,6 +49,14 @@ static int has_all_samples(const zd_run *run)
     return run->settings.t_eval && !run->settings.events && zd_output_is_complete(&run->output);
 }
 
+/* ZD_PAUSED after a jump of the state, for the caller to notice. */
+static int pass_break(zd_run *run)
+{
+    const int64_t jumps = run->motion.balance.jump.count;
+    const int status = zd_pass_break(&run->loop);
+    return status || jumps == run->motion.balance.jump.count ? status : ZD_PAUSED;
+}
+
 int zd_run_advance(zd_run *run, zd_record *record, double seconds)
 {
     const double deadline = zd_seconds_now() + seconds;
@@ -61,12 +70,13 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds)
             if (zd_seconds_now() >= deadline) return ZD_PAUSED;
             clock_step += CLOCK_EVERY;
         }
-        if (meets_breaks) status = zd_pass_break(&run->loop);
+        if (meets_breaks) status = pass_break(run);
         if (!status && (!meets_breaks || run->stepper.t != run->loop.end)) status = plain ? zd_step(&run->loop) : take_step(run);
         if (!status) status = zd_point_check_domain(run->motion.point, errors * run->settings.rtol, errors * run->settings.atol);
         if (!status && record) status = save(run, record, 0);
     }
-    return status == ZD_FULL ? status : zd_run_finish(run, status);
+    if (!status) status = zd_run_act(run);
+    return status == ZD_FULL || status == ZD_PAUSED ? status : zd_run_finish(run, status);
 }
 
 int zd_run_step(zd_run *run, int64_t steps, zd_record *record)

@@ -34,6 +34,9 @@
  *     parameters      name, unit, value, smallest and largest value
  *     effects         word of the block that depends on parameters, first and number of its products, whose sum it is
  *     products        a factor, and three pairs of a parameter and its exponent; exponents 0 to 8
+ *     events          of a run: enum zd_source of a quantity, p, v or a measure, its index and component, the value that it reaches, 1 from
+ *                     below, -1 from above, or 0, and the occurrence that ends the run, counted from 1; 0: none
+ *     actions         event, index of an input that it sets, and the value
  *     texts           UTF-8, each ended by a zero byte, the last word filled with zero bytes; an entry is a word
  *
  * A name or unit is the offset of its text, in bytes. Kinds are numbered as in the tables of the core of this version; body 0 is the ground.
@@ -48,14 +51,14 @@
 #include "../laws/program.h"
 #include "../zerodrift.h"
 
-enum { ZD_BLOCK_VERSION = 3 };
+enum { ZD_BLOCK_VERSION = 4 };
 
 enum zd_block_section {
     ZD_BLOCK_GRAVITY, ZD_BLOCK_BODIES, ZD_BLOCK_JOINTS, ZD_BLOCK_QUANTITIES,
     ZD_BLOCK_TERMS, ZD_BLOCK_RELATIONS, ZD_BLOCK_FORCES, ZD_BLOCK_MEASURES,
     ZD_BLOCK_LAWS, ZD_BLOCK_INSTRUCTIONS, ZD_BLOCK_RESULTS, ZD_BLOCK_NUMBERS, ZD_BLOCK_SPLINES, ZD_BLOCK_KNOTS,
     ZD_BLOCK_START, ZD_BLOCK_OUTPUTS, ZD_BLOCK_INPUTS, ZD_BLOCK_SETTINGS, ZD_BLOCK_METHODS, ZD_BLOCK_NAMES,
-    ZD_BLOCK_PARAMETERS, ZD_BLOCK_EFFECTS, ZD_BLOCK_PRODUCTS, ZD_BLOCK_TEXTS,
+    ZD_BLOCK_PARAMETERS, ZD_BLOCK_EFFECTS, ZD_BLOCK_PRODUCTS, ZD_BLOCK_EVENTS, ZD_BLOCK_ACTIONS, ZD_BLOCK_TEXTS,
     ZD_BLOCK_SECTIONS
 };
 
@@ -78,8 +81,11 @@ const double *zd_block_start(const zd_block *block);
  * `scratch` holds system->scratch doubles. Returns the size of a pose, also where `poses` is NULL and nothing is computed. */
 int zd_block_poses(const zd_block *block, const double *p, double *poses, double *scratch);
 int zd_block_bodies(const zd_block *block);
-/* Settings of a run and its outputs, which refer to the block; the caller sets t1 and samples. Returns ZD_DONE, or ZD_BAD_ARGUMENT. */
+/* Settings of a run, with events, inputs and outputs of the block; the caller sets t1 and samples. Returns ZD_DONE, or ZD_BAD_ARGUMENT. */
 int zd_block_settings(zd_block *block, zd_settings *settings, char *message, int message_size);
+
+/* Events of its runs; NULL: none. */
+const zd_events *zd_block_events_of(const zd_block *block);
 
 int zd_block_inputs(const zd_block *block);
 const char *zd_block_input_name(const zd_block *block, int input);

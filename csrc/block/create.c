@@ -57,7 +57,7 @@ static int fail(void *owner, int law, double t, const double *x, const double *x
     return ZD_CALLBACK;
 }
 
-static int fits(const zd_block *self, zd_complaint to)
+static int fits(zd_block *self, zd_complaint to)
 {
     const int start = zd_block_count(&self->layout, ZD_BLOCK_START), needed = self->system.nq + self->system.nv;
     if (start && start != needed) return zd_complain(to, "the start must have %d numbers, p and v, not %d", needed, start);
@@ -67,7 +67,7 @@ static int fits(const zd_block *self, zd_complaint to)
             return zd_complain(to, "output %d: its measure must exist, and is %g", i, measure);
         self->output[i] = (int)measure;
     }
-    return zd_block_inputs_check(self, to) && zd_block_parameters_check(&self->layout, to);
+    return zd_block_inputs_check(self, to) && zd_block_parameters_check(&self->layout, to) && zd_block_events_unpack(self, to);
 }
 
 /* ---- the mechanism ---- */
@@ -116,6 +116,7 @@ static zd_block *create(zd_arena *arena, size_t size, const zd_block_layout *lay
     memory->lower = zd_arena_doubles(arena, inputs);
     memory->upper = zd_arena_doubles(arena, inputs);
     memory->place = zd_arena_bytes(arena, inputs * sizeof *memory->place);
+    zd_block_events_create(&self->events, layout, arena);
     self->output = zd_arena_bytes(arena, zd_block_count(layout, ZD_BLOCK_OUTPUTS) * sizeof *self->output);
     return here;
 }

@@ -11,7 +11,7 @@ static const double LARGEST = 0x1p24;       /* whole number: sums of two are far
 static const char *const name_of_section[ZD_BLOCK_SECTIONS] = {
     "gravity", "bodies", "joints", "marker quantities", "terms", "relations", "forces", "measures", "laws", "instructions",
     "results", "numbers", "splines", "knots", "start", "outputs", "inputs", "settings", "methods", "names", "parameters", "effects",
-    "products", "texts"};
+    "products", "events", "actions", "texts"};
 
 int zd_block_is_integer(double word, double low, double end)
 {
@@ -30,7 +30,7 @@ static int width_of(const zd_block_layout *layout, int section)
         [ZD_BLOCK_SPLINES] = 2, [ZD_BLOCK_KNOTS] = 5,
         [ZD_BLOCK_START] = 1, [ZD_BLOCK_OUTPUTS] = 1, [ZD_BLOCK_INPUTS] = 5, [ZD_BLOCK_SETTINGS] = 9,
         [ZD_BLOCK_METHODS] = 2 + ZD_ROW_VALUES, [ZD_BLOCK_NAMES] = 1, [ZD_BLOCK_PARAMETERS] = 5, [ZD_BLOCK_EFFECTS] = 3,
-        [ZD_BLOCK_PRODUCTS] = 7, [ZD_BLOCK_TEXTS] = 1};
+        [ZD_BLOCK_PRODUCTS] = 7, [ZD_BLOCK_EVENTS] = 6, [ZD_BLOCK_ACTIONS] = 3, [ZD_BLOCK_TEXTS] = 1};
     const zd_block_structure *structure = zd_block_structure_in(layout, section);
     if (!structure) return width[section];
     int words = 0;

@@ -41,6 +41,15 @@ typedef struct zd_block_inputs_memory {
     zd_input_slot *place;
 } zd_block_inputs_memory;
 
+/* Events of a block: (events,) each, and (actions,). */
+typedef struct zd_block_events {
+    zd_argument *reading;
+    zd_event *known;
+    int *direction, *terminal;
+    zd_action *action;
+    zd_events all;              /* with these */
+} zd_block_events;
+
 struct zd_block {
     double *word;               /* its own copy */
     size_t size;                /* bytes */
@@ -53,6 +62,7 @@ struct zd_block {
     zd_outputs outputs;
     zd_block_inputs_memory inputs_memory;
     zd_inputs inputs;
+    zd_block_events events;
     zd_system system;
 };
 
@@ -62,6 +72,8 @@ static inline double zd_block_length(const zd_block *block) { return block->layo
 /* Sets the initial inputs; and writes inputs to their places, for a new run. */
 void zd_block_inputs_begin(zd_block *block);
 void zd_block_inputs_write(zd_block *block);
+void zd_block_events_create(zd_block_events *self, const zd_block_layout *layout, zd_arena *arena);
+int zd_block_events_unpack(zd_block *block, zd_complaint to);
 /* Checks of inputs and parameters; 1, or 0 with the reason. */
 int zd_block_inputs_check(const zd_block *block, zd_complaint to);
 int zd_block_parameters_check(const zd_block_layout *layout, zd_complaint to);

@@ -35,7 +35,7 @@ int zd_block_settings(zd_block *block, zd_settings *settings, char *message, int
     *settings = (zd_settings){
         .formulation = zd_default_entry(ZD_FORMULATIONS), .integrator = zd_default_entry(ZD_INTEGRATORS), .step = 0.01, .save_every = 1,
         .on_singular = ZD_STOP, .outputs = block->outputs.count ? &block->outputs : NULL,
-        .inputs = block->inputs.count ? &block->inputs : NULL, .vector = ZD_BASELINE};
+        .inputs = block->inputs.count ? &block->inputs : NULL, .events = zd_block_events_of(block), .vector = ZD_BASELINE};
     if (!methods->count) {
         const int correction = zd_default_entry(ZD_CORRECTIONS);
         settings->correction[correction] = zd_initial(zd_entry_card(ZD_CORRECTIONS, correction));

@@ -229,6 +229,13 @@ int zd_motion_balance(zd_motion *motion, double *violation)
     return zd_has_energy(&motion->system) ? zd_motion_energy_violation(motion, violation, &kinetic) : ZD_DONE;
 }
 
+void zd_motion_add_jump(zd_motion *motion, double t, double energy)
+{
+    zd_balance *balance = &motion->balance;
+    balance->initial += energy;
+    balance->jump = (zd_energy_jump){balance->jump.count + 1, t, energy};
+}
+
 int zd_motion_start_energy(zd_motion *motion)
 {
     return zd_motion_balance(motion, &motion->balance.initial);     /* E0 of (28), which is 0 here */

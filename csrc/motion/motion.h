@@ -95,6 +95,7 @@ typedef struct zd_tally {
 typedef struct zd_balance {
     double initial;         /* E0, J */
     const double *input;    /* J: energy input, the last entry of the state; NULL if the system has none */
+    zd_energy_jump jump;    /* the last change of E0 */
 } zd_balance;
 
 /* The equations of motion as an evaluation path has them. */
@@ -307,6 +308,8 @@ int zd_has_input(const zd_system *system);          /* true if power is put in b
 static inline double zd_motion_input(const zd_motion *motion) { return motion->balance.input ? *motion->balance.input : 0; }   /* J */
 int zd_motion_energy_violation(zd_motion *motion, double *violation, double *kinetic);     /* (28) */
 int zd_motion_balance(zd_motion *motion, double *violation);      /* its violation alone, 0 without a potential */
+/* Adds the change of the energy by a jump of the state at time t, J, to E0. */
+void zd_motion_add_jump(zd_motion *motion, double t, double energy);
 int zd_motion_start_energy(zd_motion *motion);      /* E0 of (28), from the point */
 
 /* User functions of forces that read reactions and accelerations, which are solved together with the accelerations. */

@@ -33,6 +33,10 @@ typedef struct zd_watch {
     int failed;             /* 1 + index of an event that could not be evaluated; 0: none */
     int ended;              /* 1 + index of the event that ended the run; 0: none */
     int disarmed;           /* 1 + index of the event from which the next step begins; 0: none */
+    int *acts;              /* (events,) true if it acts at the present instant */
+    double *acted;          /* (events, 2), s: the last two times at which it did */
+    int next_action;        /* index of the action that is due next at this instant */
+    int calls;              /* 1 + index of the event at which the caller acts now; 0: none */
 } zd_watch;
 
 /* Value of an event function at the point, whose accelerations are computed if it reads them; those of all events. */
@@ -46,8 +50,11 @@ void zd_perturb(int n, const double *x, unsigned seed, double *perturbed);
 /* Change of an event function when the state at the point changes by its rounding. */
 int zd_watch_rounding(zd_watch *self, int event, double value, double *rounding);
 
-/* True at an event that ends the run, not one that stops an advance. */
-static inline int zd_watch_ends(const zd_watch *self) { return self->ended && self->events->terminal[self->ended - 1] != ZD_EACH; }
+/* True at an event that ends the run, not one that only acts. */
+static inline int zd_watch_ends(const zd_watch *self)
+{
+    return self->ended && self->found[self->ended - 1] == self->events->terminal[self->ended - 1];
+}
 
 /* Samples of event functions within a step. */
 

@@ -41,30 +41,6 @@ static void set_goal_time(zd_run *run, double t)
     loop->steps = is_fixed(run) ? last : 0;
 }
 
-/* Lets a run with an end go on from an event: to that end, and a fixed step by a short one to where it would have ended. */
-static void aim_at_end(zd_run *run)
-{
-    zd_step_loop *loop = &run->loop;
-    const double size = run->settings.step, grid = loop->t_begin + (double)(loop->step - loop->steps_before) * size;
-    loop->end = run->settings.t1;
-    const double rounding = ZD_TIME_RESOLUTION * fmax(fabs(loop->t_begin), fabs(grid));
-    if (!is_fixed(run) || !(fmin(grid, loop->end) - run->stepper.t > rounding)) return;
-    loop->step--;
-    loop->was_cut = 1;
-}
-
-/* After a terminal event, which is terminal again, once its function has left zero. */
-static void leave_event(zd_run *run)
-{
-    zd_watch *watch = &run->watch;
-    const int event = watch->ended - 1;
-    if (run->outcome.status == ZD_EVENT) run->outcome = (zd_outcome){.status = ZD_DONE};
-    if (event < 0) return;
-    watch->found[event] = watch->ended = 0;
-    watch->disarmed = event + 1;
-    if (!run->settings.is_open) aim_at_end(run);
-}
-
 int zd_run_set_goal(zd_run *run, int64_t steps, double t)
 {
     if (!(t >= run->stepper.t) || steps < 0) return ZD_BAD_ARGUMENT;
@@ -73,7 +49,9 @@ int zd_run_set_goal(zd_run *run, int64_t steps, double t)
         begin_anew(run);
         zd_run_remove_end(run);
     }
-    leave_event(run);
+    if (run->outcome.status == ZD_EVENT) run->outcome = (zd_outcome){.status = ZD_DONE};
+    if (zd_watch_ends(&run->watch)) run->watch.found[run->watch.ended - 1] = 0;      /* it is terminal again */
+    zd_run_leave_event(run);
     const int64_t made = run->loop.step;
     run->goal.step = steps < INT64_MAX - made ? made + steps : INT64_MAX;
     if (t < INFINITY) set_goal_time(run, t);
@@ -108,6 +86,8 @@ static int return_to_good(zd_run *run)
     zd_inputs_return(run);
     int status = zd_variables_use_chosen(&run->stepper);
     if (!status) status = zd_stepper_return_to(&run->stepper, &run->goal.good);
+    if (!status && run->watch.ended) status = zd_watch_start(&run->watch);
+    zd_run_leave_event(run);
     return status ? status : zd_safeguards_begin(&run->safeguards, loop->step + 1);
 }
 

@@ -16,6 +16,7 @@ const char *zd_run_message(const zd_run *run) { return run->outcome.message; }
 const zd_statistics *zd_run_statistics(const zd_run *run) { return &run->motion.statistics; }
 int zd_run_redundant(const zd_run *run, int *rows) { return zd_rank_redundant(run->motion.point->rank, rows); }
 const double *zd_run_sizes(const zd_run *run) { return run->motion.point->size; }
+const zd_energy_jump *zd_run_energy_jump(const zd_run *run) { return &run->motion.balance.jump; }
 double zd_run_kinetic(const zd_run *run) { return run->safeguards.guard.kinetic; }
 double zd_run_energy_error(const zd_run *run) { return run->tally.energy_error; }
 double zd_run_omega_h(const zd_run *run) { return zd_guard_omega_h(&run->safeguards.guard); }

@@ -17,8 +17,9 @@ typedef struct zd_outcome { /* the end of the run, once reached */
     char message[ZD_MESSAGE];
 } zd_outcome;
 
-typedef struct zd_goal {    /* end of the present advance of an open run */
+typedef struct zd_goal {    /* end of the present advance */
     int64_t step;           /* number of its last step; INT64_MAX: none */
+    double end;             /* s: end of the loop before an event has cut the step */
     zd_state good;          /* start of the present step, to which a failure returns; open runs only */
     int64_t good_step;      /* number of steps made there */
     double good_h;          /* s: adaptive steps: size of the next step there */
@@ -109,6 +110,10 @@ void zd_inputs_return(zd_run *run);
 void zd_run_remove_end(zd_run *run);
 /* Beginning of a step: an open run saves its start, and inputs are written. */
 int zd_run_begin_step(zd_run *run);
+/* Leaves the event at which the run has ended, or acts: it is armed again once its function has left zero. */
+void zd_run_leave_event(zd_run *run);
+/* Acts at the events of the present instant. ZD_PAUSED: it goes on, or the caller acts first; ZD_DONE: nothing acts, or an event ends it. */
+int zd_run_act(zd_run *run);
 /* Explains why the run ends; an open run that failed returns to the start of the step, from where it can go on. */
 int zd_run_finish(zd_run *run, int status);
 

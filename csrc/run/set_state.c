@@ -16,7 +16,7 @@ int zd_run_set_state(zd_run *run, const double *p, const double *v)
     if (!status) status = zd_motion_balance(motion, &after);
     if (!status && run->settings.events) status = zd_watch_start(&run->watch);
     if (status) return status;
-    motion->balance.initial += after - before;
+    zd_motion_add_jump(motion, stepper->t, after - before);
     run->tally.start_saved = run->settings.t_eval != NULL;
     status = zd_renew(&run->loop);
     return status ? status : zd_safeguards_begin(&run->safeguards, run->loop.step + 1);

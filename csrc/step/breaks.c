@@ -44,7 +44,8 @@ static int project(zd_step_loop *loop)
     int status = zd_motion_balance(motion, &before);
     if (!status) status = zd_path_end(loop->stepper, loop->stepper->t, 0);
     if (!status) status = zd_motion_balance(motion, &after);
-    if (!status) motion->balance.initial += after - before;
+    if (!status && fabs(after - before) > ZD_ENERGY_ROUNDING * zd_point_kinetic(motion->point))
+        zd_motion_add_jump(motion, loop->stepper->t, after - before);
     return status;
 }
 

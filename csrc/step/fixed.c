@@ -30,7 +30,7 @@ static int next(zd_step_loop *loop, zd_attempt *attempt)
     const double rounding = ZD_TIME_RESOLUTION * fmax(fabs(loop->t_begin), fabs(t1));
     if (loop->parts) return next_part(loop, attempt, t1);
     attempt->t1 = t1;
-    attempt->h = (loop->step == loop->steps || loop->was_cut) && fabs(size - step) > rounding ? size : step;
+    attempt->h = fabs(size - step) > rounding ? size : step;       /* shorter: the last one, and after an event */
     attempt->forced = t1 == loop->end;
     return ZD_DONE;
 }

@@ -109,7 +109,6 @@ struct zd_step_loop {
     int64_t steps;          /* number of the fixed step that ends at `end`; 0: none */
     double t_begin;         /* s: time from which fixed steps are counted */
     int64_t steps_before;   /* number of steps before that time */
-    int was_cut;            /* true if a fixed step was cut at an event, so that the next is shorter */
     zd_state undivided;     /* start of a step that is repeated in parts; of fixed steps only */
     int parts, part;        /* number of these parts, 0: the step is not divided; the current one, from 1 */
     zd_control control;

@@ -111,12 +111,20 @@ const double *zd_run_p(const zd_run *run);
 const double *zd_run_v(const zd_run *run);
 int64_t zd_run_step_number(const zd_run *run);              /* steps made */
 int zd_run_ended_by(const zd_run *run);                     /* index of the terminal event at which it is; -1: none */
+int zd_run_acting(const zd_run *run);                       /* after ZD_PAUSED: index of the event at which the caller acts; -1: none */
 /* Accelerations (nv,) and multipliers (m,) at the present state, which are those of the next step's start. */
 int zd_run_accelerations(zd_run *run, double *vdot, double *multipliers);
 /* value (size,) <- a measure of a system with the equations of the run, at its present state; t, p and v of a run in SIMD lanes may be ahead
  * of it, for a measure of positions or velocities. scratch: memory of the measures, and nv + m. */
 int zd_run_measure(zd_run *run, const zd_system *system, int measure, double t, const double *p, const double *v, double *value,
                    double *scratch);
+/* Jumps of the state so far, by zd_run_set_state() and of prescribed speeds at breaks, after which an advance pauses; and of the last one its
+ * time, s, and the change of the energy, J, from which on the balance counts. */
+typedef struct zd_energy_jump {
+    int64_t count;
+    double t, energy;
+} zd_energy_jump;
+const zd_energy_jump *zd_run_energy_jump(const zd_run *run);
 /* Jumps of speeds so far. Of the last one: its time, s; its impulses (m,), of the constraints, with the sign of (7); and their works (m,), J,
  * whose sum enters the energy balance. Velocities are projected as in (25b): M (v+ - v-) = -C^T impulses. */
 typedef struct zd_jump {

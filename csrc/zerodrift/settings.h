@@ -26,16 +26,24 @@ typedef struct zd_event {
     int is_called;          /* true: zd_events.evaluate() is called with x, and the two above are not used */
 } zd_event;
 
+/* Action at each occurrence of an event, after which the run goes on: an input is set, or the caller acts, see zd_run_acting(). */
+typedef struct zd_action {
+    int event;
+    int input;              /* index; -1: the caller acts */
+    double value;           /* value of the input */
+} zd_action;
+
 typedef struct zd_events {
     int count;
     const int *direction;   /* (count,) 1: from below, -1: from above, 0: either */
-    const int *terminal;    /* (count,) the run ends at this occurrence of the event, counted from 1; 0: never. ZD_EACH: an advance stops
-                             * at each, and zd_run_set_goal() lets it go on */
+    const int *terminal;    /* (count,) the run ends at this occurrence of the event, counted from 1; 0: never */
     const zd_event *known;  /* (count,) what the core reads and evaluates; NULL: all are evaluated by the callback */
+    int actions;
+    const zd_action *action;    /* (actions,) in their order, those of several events at one instant, too */
     const zd_system *of;    /* system whose measures are read; NULL: the simulated system */
     void *data;
-    /* Callbacks: value of an event function, with the arguments x that the core reads for it, and notification of an event at its instant.
-     * Both return 0, or ZD_CALLBACK on failure. */
+    /* Callbacks: value of an event function, with the arguments x that the core reads for it, and notification of an event at its instant,
+     * NULL: none. Both return 0, or ZD_CALLBACK on failure. */
     int (*evaluate)(void *data, int event, double t, const double *p, const double *v, const double *x, double *value);
     int (*found)(void *data, int event, double t, const double *p, const double *v);
 } zd_events;
@@ -59,7 +67,7 @@ typedef struct zd_input_slot {
 
 typedef struct zd_inputs {
     int count;
-    const double *value;        /* (count,): read at the start of each advance; the places hold the initial ones already */
+    double *value;              /* (count,): read at the start of each advance, set by events; the places hold the initial ones already */
     const double *lower, *upper;    /* (count,): limits */
     const char *const *name;    /* (count,): for messages on speeds; NULL: their indices are given there */
     int jumps;                  /* true: speeds jump to their inputs, by an impulse, see zd_run_jump() */
@@ -86,7 +94,6 @@ typedef struct zd_parameter_values {
 enum zd_on_singular { ZD_STOP, ZD_CONTINUE };
 
 /* Sizes of steps: given, or by the error estimate of the integrator. */
-enum { ZD_EACH = -1 };
 enum zd_steps { ZD_FIXED_STEPS, ZD_ADAPTIVE_STEPS };
 
 typedef struct zd_settings {

@@ -49,6 +49,7 @@ OF_STATUS = {
     "ZD_TINY_STEP": "step-underflow",
     "ZD_TOO_MANY_STEPS": "too-many-steps",
     "ZD_COLLAPSED": "step-collapse",
+    "ZD_CHATTERS": "event-chatter",
     "ZD_BIFURCATION_PASSED": "bifurcation-passed",
     "ZD_NOT_JACOBIAN": "wrong-jacobian",
     "ZD_NOT_KEPT": "quaternion-length",

@@ -9,7 +9,7 @@ import pytest
 
 import zerodrift as zd
 from core_objects import AT_FIXED_PLACES, CC, STRICT, needs_compiler, objects_of, shared_folder
-from support import called, refused
+from support import called, refused, relay
 
 ALLOCATED = """
 #include <stdio.h>
@@ -49,6 +49,16 @@ def test_a_crank_has_the_bits_of_simulate_and_allocates_before_its_steps(tmp_pat
     rows, told = printed(program, 1.0)
     np.testing.assert_array_equal(rows, np.column_stack([sol.t, *(sol[name] for name in names)]))
     assert told == printed(program, 0.01)[1] != "0 allocations\n"
+
+
+@needs_compiler
+def test_events_act_with_the_bits_of_simulate(tmp_path, built):
+    m, events = relay()
+    folder = zd.c_source(m, tmp_path / "relay", step=1e-2, outputs=["pin.angle"], events=events)
+    sol = zd.simulate(m, 5.0, step=1e-2, events=events, vector="baseline", closed_form=False)
+    rows, _ = printed(built(folder), 5.0)
+    assert len(sol.jumps) == 4
+    np.testing.assert_array_equal(rows, np.column_stack([sol.t, sol["pin.angle"]]))
 
 
 @needs_compiler

@@ -11,7 +11,7 @@ import pytest
 import zerodrift as zd
 from core_objects import needs_compiler
 from few_bodies import two_links
-from support import refused
+from support import assert_close, refused, relay
 from zerodrift.export import fmu_libraries
 from zerodrift.symbolics.compile import compilers
 
@@ -242,6 +242,17 @@ def test_a_terminal_event_discards_the_step_in_the_second_version(tmp_path):
     assert "ended by event 0" in "".join(told)
     with refused("not-available", r"events\[0\] must be terminal in FMI 2\.0"):
         with_events(tmp_path, "2.0", EVENTS)
+
+
+@pytest.mark.parametrize("early", [False, True])
+def test_events_set_inputs(tmp_path, version, early):
+    m, events = relay()
+    unit = zd.fmu(m, tmp_path / "relay", step=STEP, outputs=["pin.angle"], events=events, version=version)
+    found = fmpy.simulate_fmu(str(unit), stop_time=5.0, step_size=0.05, output_interval=0.05,
+                              **({"early_return_allowed": early} if version == "3.0" else {}))
+    sol = zd.simulate(m, 5.0, step=STEP, events=events, vector="baseline", closed_form=False)
+    tolerance = 1e-8 if early else 0.0      # early: steps begin at events
+    assert_close(found["pin.angle"][-1], sol["pin.angle"][-1], tolerance, scale=1.0)
 
 
 def test_events_of_units_are_quantities_that_reach_a_value(tmp_path):

@@ -15,6 +15,7 @@ import tolerances as tol
 import zerodrift as zd
 from analysis.test_reach_of_drives import driven
 from browser import Browser, needs_chromium
+from support import relay
 from zerodrift._private.rotations import rotation_of
 from zerodrift.errors import sentence
 from zerodrift.export import wasm
@@ -85,6 +86,15 @@ def test_runs_have_the_bits_of_the_native_core(web, model):
     run = zd.Run(model(), step=step, closed_form=False, vector="baseline")
     run.step(steps)
     assert found == [bits(run.p), bits(run.v)]
+
+
+def test_events_set_inputs(web):
+    m, events = relay()
+    found, = web("const m = zd.create(core, block('it')); zd.advance(m, 5);"
+                 "tell([bits(zd.positions(m)), zd.input(m, 'drive.torque')]);",
+                 it=zd.block(m, step=0.01, outputs=[], events=events))
+    sol = zd.simulate(m, 5.0, step=0.01, events=events, closed_form=False, vector="baseline")
+    assert found == [bits(sol.p[-1]), -1.0]
 
 
 @needs_chromium

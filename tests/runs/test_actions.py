@@ -1,10 +1,12 @@
 """Events that act: inputs that they set and states that they change, against closed forms, with any steps."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 import zerodrift as zd
-from support import assert_close, refused
+from support import assert_close, refused, relay
 
 G = 9.81
 STEPS = {"adaptive": {}, "fixed": {"step": 0.01}, "not dividing": {"step": 0.07, "integrator": "dormand_prince"},
@@ -65,7 +67,7 @@ def test_fixed_steps_return_to_their_grid():
 def test_bounces_without_end_are_an_error():
     """The time between bounces goes to zero; a ball that stays on the floor needs a contact."""
     m, floor = ball_and_floor()
-    with refused("out-of-range", "again and again"):
+    with refused("event-chatter", "again and again"):
         zd.simulate(m, 2.0, events=floor)
 
 
@@ -122,6 +124,54 @@ def test_open_runs_act_and_are_restored():
     assert run.solution().t_events[0].size == 1
 
 
+@pytest.mark.parametrize("steps", ["adaptive", "fixed", "matrices"])
+def test_data_acts_as_runs_that_are_glued_by_hand(steps):
+    """A relay: each event ends a run of a mechanism with another torque, from where the one before ended."""
+    given, (m, events) = STEPS[steps] | ({} if steps == "fixed" else {"rtol": 1e-11, "atol": 1e-11}), relay()
+    sol = zd.simulate(m, 5.0, events=events, **given)
+    t, p, v, torque, found = 0.0, np.zeros(1), np.zeros(1), 2.0, []
+    while t < 5.0:
+        last = [dataclasses.replace(each, then=None, terminal=True) for each in events]
+        part = zd.simulate(relay(torque)[0].system("joint"), (t, 5.0), p, v, events=last, **given)
+        t, p, v = part.t[-1], part.p[-1], part.v[-1]
+        which = np.argmax([len(times) for times in part.t_events])
+        torque = events[which].then["drive.torque"]
+        found.append((t, f"events[{which}]"))
+    tolerance = 1e-6 if steps == "fixed" else 1e-9      # steps begin at the event there, and at the grid here
+    assert len(found) == 5
+    assert_close(sol.jumps["t"], [t for t, _ in found[:-1]], tolerance, scale=1.0)
+    assert sol.jumps["name"].tolist() == [name for _, name in found[:-1]]
+    assert_close([*sol.p[-1], *sol.v[-1]], [*p, *v], 10 * tolerance, scale=1.0)
+
+
+@pytest.mark.parametrize("steps", ["adaptive", "fixed"])
+def test_ensembles_act_as_single_runs(steps):
+    m, events = relay()
+    v0, given = np.linspace(0, 1, 3)[:, None], {"events": events, "t_eval": np.linspace(0, 5, 11), **STEPS[steps]}
+    many = zd.ensemble(m, 5.0, p0=np.zeros((3, 1)), v0=v0, outputs=["pin.angle", "drive.torque"], **given)
+    for i, start in enumerate(v0):
+        one = zd.simulate(m.system("joint"), 5.0, np.zeros(1), start, **given)
+        np.testing.assert_array_equal([many["pin.angle"][i], many["drive.torque"][i]], [one["pin.angle"], one["drive.torque"]])
+        np.testing.assert_array_equal(np.concatenate(many.t_events[i]), np.concatenate(one.t_events))
+    assert many[1].jumps.size == 4
+
+
+def test_jumps_are_in_the_balance_and_saved(tmp_path):
+    m, floor = ball_and_floor()
+    sol = zd.simulate(m, 1.2, events=floor)
+    assert_close(sol.jumps["t"], bounces(1.2), 1e-13, scale=1.0)
+    assert_close(sol.jumps["energy"], -0.75 * G * 0.25**np.arange(3), 1e-12, scale=1.0)
+    assert_close(np.diff(sol.kinetic_energy + sol.potential_energy).sum(), sol.jumps["energy"].sum(), 1e-12, scale=1.0)
+    sol.save(tmp_path / "ball.npz")
+    np.testing.assert_array_equal(zd.load(tmp_path / "ball.npz").jumps, sol.jumps)
+    m = zd.Mechanism("cart")
+    m.prismatic("rail", m.ground, m.body("cart", at=(0, 0), mass=2.0, inertia=1.0), axis=(1, 0))
+    m.motor("drive", "rail", speed=lambda t: 1.0 if t < 1 else 3.0)
+    sol = zd.simulate(m, 2.0)
+    assert sol.jumps["name"].tolist() == ["break"]
+    assert_close([*sol.jumps["t"], *sol.jumps["energy"]], [1.0, 8.0], 1e-12, scale=1.0)
+
+
 def test_several_events_act_in_order():
     seen = []
     events = [zd.Event("pin.angle", value=1.0, then=lambda run, i=i: seen.append((i, run.t))) for i in range(3)]
@@ -154,8 +204,8 @@ def test_a_sample_at_the_instant_is_the_one_before(steps):
 def test_refusals():
     with refused("in-use"):
         zd.simulate(arm(), 2.0, events=zd.Event("pin.angle", value=1.0, then=lambda run: run.step()))
-    with refused("not-available", "events.then"):
-        zd.ensemble(arm(), 1.0, v0=[[0.0], [1.0]], events=zd.Event("pin.angle", value=1.0, then={"drive.torque": 0.0}))
+    with refused("not-available", "events.then must be a dict of inputs"):
+        zd.ensemble(arm(), 1.0, v0=[[0.0], [1.0]], events=zd.Event("pin.angle", value=1.0, then=lambda run: None))
     with refused("wrong-type", "then of events"):
         zd.simulate(arm(), 2.0, events=zd.Event("pin.angle", then=3))
     with pytest.raises(ZeroDivisionError) as found:

@@ -107,12 +107,16 @@ def test_a_start_that_is_not_finite_is_refused_by_the_core():
             gateway.Run(core, handed(), np.array([p]), np.array([v]))
 
 
+ACTION = ffi.new("zd_action[]", 1)
+
+
 @pytest.mark.parametrize(("changed", "sentence"), [
     ({"count": -1}, "at most 8192 events"),
     ({"count": 9000}, "at most 8192 events"),
-    ({"evaluate": ffi.NULL}, r"events must have both functions, evaluate\(\) and found\(\)"),
+    ({"evaluate": ffi.NULL, "known": ffi.NULL}, r"events must have the function evaluate\(\)"),
+    ({"actions": 1, "action": ACTION}, "actions must be at existing events"),
     ({"count": 1, "direction": ffi.NULL}, "events must have the arrays direction and terminal"),
-], ids=["negative", "many", "no function", "no direction"])
+], ids=["negative", "many", "no function", "no action", "no direction"])
 def test_events_that_the_core_refuses(bar, changed, sentence):
     watcher = gateway.Watcher(bar._core, [])
     for name, value in changed.items():

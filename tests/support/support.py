@@ -245,3 +245,13 @@ def called(function):
         with contextlib.nullcontext():
             return function(*x, **named)
     return caller
+
+
+def relay(torque=2.0):
+    """An arm in gravity, and two events at which its motor is switched."""
+    m = zd.Mechanism("arm", gravity=(0, -9.81))
+    link = m.link("arm", (0, 0), (1, 0), mass=3.0)
+    m.motor("drive", m.revolute("pin", m.ground, link.start), torque=torque)
+    m.start({"pin.angle": 0.0})
+    return m, [zd.Event("pin.angle", value=-2.0, direction=-1, then={"drive.torque": 20.0}),
+               zd.Event("pin.angle", value=-1.0, direction=1, then={"drive.torque": -1.0})]

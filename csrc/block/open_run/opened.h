@@ -11,8 +11,8 @@ zd_opened *zd_opened_create(const void *data, size_t size, double t, char *messa
 zd_opened *zd_opened_create_assembled(const void *data, size_t size, double t, char *message, int message_size);
 void zd_opened_free(zd_opened *self);
 zd_block *zd_opened_block(const zd_opened *self);
-/* Events of the runs that are begun from now on, kept by the caller as long as they are; at a terminal one an advance ends with ZD_EVENT, and
- * the next goes on from there. */
+/* Events of the runs that are begun from now on, instead of those of the block; kept by the caller as long as they are. At a terminal one an
+ * advance ends with ZD_EVENT, and the next goes on from there. */
 void zd_opened_watch(zd_opened *self, const zd_events *events);
 /* Settings of a run from time t on; writes the inputs to their places. Returns ZD_DONE, or ZD_BAD_ARGUMENT with a message. */
 int zd_opened_settings(zd_opened *self, double t, zd_settings *settings);

@@ -8,7 +8,7 @@
  * messages with numbers are in explain.c. */
 #define ZD_STATUS_LIST(STATUS) \
     STATUS(ZD_DONE, 0, "", "done") \
-    STATUS(ZD_PAUSED, 1, "", "the time slice is over: call again") \
+    STATUS(ZD_PAUSED, 1, "", "the time slice is over, or an event has acted: call again") \
     STATUS(ZD_FULL, 2, "", "the record is full: give another") \
     STATUS(ZD_EVENT, 4, "", "a terminal event ended the run")       /* 3 is reserved for an interruption by the caller */ \
     STATUS(ZD_NOT_FINITE, -1, "Diverged", "the state left the range of doubles") \
@@ -41,7 +41,8 @@
     STATUS(ZD_BAD_INPUT, -25, "InputRefused", "an input is not finite, or beyond its limits") \
     STATUS(ZD_COLLAPSED, -26, "StepFailed", "the step size has collapsed at one place") \
     STATUS(ZD_SEVERAL_MOTIONS, -27, "NoUniqueMotion", \
-           "friction has no unique solution: forces must not depend so strongly on the reactions that they read")
+           "friction has no unique solution: forces must not depend so strongly on the reactions that they read") \
+    STATUS(ZD_CHATTERS, -28, "StepFailed", "an event acts again and again at one instant")
 
 #define ZD_STATUS_NUMBER(name, number, error, sentence) name = number,
 enum zd_status { ZD_STATUS_LIST(ZD_STATUS_NUMBER) };

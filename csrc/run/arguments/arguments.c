@@ -96,15 +96,26 @@ static int are_alike(const zd_system *one, const zd_system *other)
     return one->nq == other->nq && one->nv == other->nv && one->mh == other->mh && one->mn == other->mn;
 }
 
-static const char *wrong_events(const zd_system *system, const zd_events *events)
+static int actions_exist(const zd_events *events, const zd_inputs *inputs)
+{
+    int do_exist = 1, count = inputs ? inputs->count : 0;
+    for (int i = 0; i < events->actions; i++) {
+        const zd_action *action = events->action + i;
+        do_exist &= action->event >= 0 && action->event < events->count && action->input >= -1 && action->input < count;
+    }
+    return do_exist;
+}
+
+static const char *wrong_events(const zd_system *system, const zd_events *events, const zd_inputs *inputs)
 {
     if (!events) return NULL;
     const rule rules[] = {
         {events->count < 0 || events->count > ZD_LARGEST, "a run must have at most 8192 events"},
-        {!events->evaluate || !events->found, "events must have both functions, evaluate() and found()"},
         {events->count > 0 && (!events->direction || !events->terminal), "events must have the arrays direction and terminal"},
         {events->of && !are_alike(events->of, system),
          "events must read measures of a system with the same numbers of coordinates, velocities and constraints"},
+        {!events->evaluate && !events->known, "events must have the function evaluate(), or be known to the core"},
+        {!actions_exist(events, inputs), "actions must be at existing events, and set existing inputs"},
     };
     const char *wrong = FIRST_BROKEN(rules);
     return wrong ? wrong : zd_wrong_readings(events, system);
@@ -211,7 +222,7 @@ int zd_check_method(const zd_system *system, const zd_settings *settings, char *
                  "follows the bodies", formulation->card.name, ZD_MAX_IMPLICIT, system->nv);
         return ZD_UNSUITED;
     }
-    return status ? status : refuse(wrong_events(system, settings->events), message, size);
+    return status ? status : refuse(wrong_events(system, settings->events, settings->inputs), message, size);
 }
 
 int zd_check_quaternions(const zd_system *system, const double *p, int any_length, char *message, int size)

@@ -90,9 +90,9 @@ def _batch(plan: Plan) -> Batch | None:
 
 
 def _are_known(watched: tuple[events_of.Watched, ...], system: BaseSystem, varied: set[str]) -> bool:
-    """True if the core evaluates all events without Python and none depends on a varied parameter."""
+    """True if the core evaluates all events without Python, none depends on a varied parameter, and none acts."""
     has_measures = system._watching.core is core_of(system)
-    known = [event.known for event in watched if event.known is not None and not event.known.is_called]
+    known = [event.known for event in watched if event.known is not None and not event.known.is_called and not event.then]
     return len(known) == len(watched) and all((has_measures or not event.is_measured) and not event.parameters & varied
                                               for event in known)
 

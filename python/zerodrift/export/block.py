@@ -11,18 +11,21 @@ import numpy as np
 from .._private import checks
 from .._private.gateway.mechanisms import blocks
 from .._private.gateway.mechanisms.element_tables import OutputSpec, law_sizes
-from .._private.types import ArrayLike, Measures, Settings, SystemLike
+from .._private.types import ArrayLike, Events, Measures, Settings, SystemLike
 from ..errors import WrongType, WrongValue
 from ..mechanisms.equations.measure_tables import read
 from ..mechanisms.equations.space_tables import tables_of
 from ..mechanisms.system import MechanismSystem
 from ..runs.arguments import outputs as _outputs
 from ..runs.arguments import settings
+from ..runs.arguments.events import Watched, inputs_of
 from ..runs.states.instant import start_of
 from ..systems.base import core_of, system_of
 from . import parameters as _parameters
 from .grip import Grip
 from .law_programs import Programs
+from .levels import levels, measures_of
+from .levels import sections as event_sections
 
 MAX_MEASURES = 8192        # of a system of the core
 TABLES = blocks.SECTIONS[:blocks.SECTIONS.index("start")]      # sections whose words parameters may change
@@ -38,13 +41,15 @@ class Chosen(NamedTuple):
     outputs: tuple[str, ...] | None     # measures; None: all, and none is recorded
     inputs: tuple[str, ...]
     limits: Mapping[str, tuple[float, float]] = MappingProxyType({})       # of parameters
-    watched: tuple[str, ...] = ()   # measures that are kept besides the outputs
+    watched: tuple[str, ...] = ()   # measures that are kept besides the outputs, and those of events
+    events: tuple[Watched, ...] = ()
     has_grip: bool = False          # a force on a point of a body, see `grip`
 
 
 def block(system: SystemLike, p0: ArrayLike | None = None, v0: ArrayLike | None = None, *, t0: float = 0.0,
           step: float | None = 0.01, outputs: Measures | None = None, inputs: Sequence[str] = (),
-          parameters: Mapping[str, tuple[float, float]] | None = None, **chosen: Unpack[Settings]) -> bytes:
+          events: Events | None = None, parameters: Mapping[str, tuple[float, float]] | None = None,
+          **chosen: Unpack[Settings]) -> bytes:
     """A mechanism as one block of data: tables, user functions, start, measures, inputs, and the settings of a run.
 
     The core makes a system of it without Python. Its format is described in ``block.h`` of the core's sources: words of eight
@@ -66,6 +71,9 @@ def block(system: SystemLike, p0: ArrayLike | None = None, v0: ArrayLike | None 
     inputs : list of str
         Numbers that may be set between steps: forces and torques, such as ``"motor.torque"``, and speeds of motors,
         ``"drive.speed"``, which must be given as numbers.
+    events : Event or measure, or a list of these, optional
+        Measures, coordinates or velocities that reach a value. What they set by `then`, a dict, are inputs, which need not be
+        named.
     parameters : dict of (float, float), optional
         Lengths, masses, stiffnesses and other numbers, by their paths, that a program may change within these limits.
     **chosen
@@ -90,12 +98,12 @@ def block(system: SystemLike, p0: ArrayLike | None = None, v0: ArrayLike | None 
     >>> data[:7], len(data) % 8
     (b'zdblock', 0)
     """
-    made = choose(system, p0, v0, t0, step, outputs, inputs, **chosen)
+    made = choose(system, p0, v0, t0, step, outputs, inputs, events=events, **chosen)
     return written(made._replace(limits=_parameters.ranges(parameters or {}, made.system.parameters)))
 
 
 def choose(system: Any, p0: Any, v0: Any, t0: float, step: float | None, outputs: Any, inputs: Sequence[str],
-           **chosen: Any) -> Chosen:
+           events: Any = None, **chosen: Any) -> Chosen:
     """Check the arguments of `block`."""
     t0 = checks.number("t0", t0)
     system, p0, v0 = start_of(system, p0, v0, t0)
@@ -109,7 +117,9 @@ def choose(system: Any, p0: Any, v0: Any, t0: float, step: float | None, outputs
     core_settings = settings.plan(
         system, (t0, t0 + 1), settings.Arguments(step=step, closed_form=False, vector="baseline", **chosen)).core_settings
     names = None if outputs is None else _measures(_outputs.names(outputs, system), system)
-    return Chosen(system, p, v, core_settings, names, _inputs(inputs))
+    inputs, found = tuple(dict.fromkeys([*_inputs(inputs), *inputs_of(events)])), levels(events, system)
+    watched = measures_of(found, list(system._watching.known))
+    return Chosen(system, p, v, core_settings, names, inputs, watched=watched, events=found)
 
 
 def _measures(names: Sequence[str], system: MechanismSystem) -> tuple[str, ...]:
@@ -140,6 +150,7 @@ def written(chosen: Chosen, words: _parameters.Words | None = None) -> bytes:
         "settings": blocks.settings(chosen.core_settings), "methods": blocks.methods(chosen.core_settings, texts),
         "names": [texts.offset(name) for name in (*(body.name for body in tables.parts), *(joint.name for joint in tables.joints),
                                                   *tables.relation_names)],
+        **event_sections(chosen.events, list(system._watching.known), measures, chosen.inputs),
         **_parameter_sections(chosen, words or table_words(chosen), sections, counts, texts)}
     return blocks.assembled(system._drawing.dimension, sections, counts, texts)
 

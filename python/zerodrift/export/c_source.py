@@ -11,7 +11,7 @@ import numpy as np
 
 from .._private import checks
 from .._private.gateway.mechanisms import blocks
-from .._private.types import ArrayLike, Measures, Settings, SystemLike
+from .._private.types import ArrayLike, Events, Measures, Settings, SystemLike
 from ..errors import ExistingFile
 from .block import Chosen, choose, written
 from .core_files import ENTRIES, CoreFiles, entry
@@ -19,7 +19,7 @@ from .core_files import ENTRIES, CoreFiles, entry
 
 def c_source(system: SystemLike, folder: str | Path, *, step: float, outputs: Measures = (),
              p0: ArrayLike | None = None, v0: ArrayLike | None = None, t0: float = 0.0, inputs: Sequence[str] = (),
-             **chosen: Unpack[Settings]) -> Path:
+             events: Events | None = None, **chosen: Unpack[Settings]) -> Path:
     """Write a mechanism as a folder of C11 sources, with a program that simulates it.
 
     The folder has the files of the core that this mechanism and its methods need, the mechanism as one block (see `block`)
@@ -38,7 +38,7 @@ def c_source(system: SystemLike, folder: str | Path, *, step: float, outputs: Me
         Size of fixed steps, in s.
     outputs : list of measures or names
         Measures to print, vectors with all components.
-    p0, v0, t0, inputs, **chosen
+    p0, v0, t0, inputs, events, **chosen
         As in `block`. Inputs are set by ``zd_block_set_input``, between steps.
 
     Returns
@@ -66,7 +66,7 @@ def c_source(system: SystemLike, folder: str | Path, *, step: float, outputs: Me
     ['data.h', 'main.c', 'methods.h']
     """
     step = checks.number("step", step, above=0, code="step-size")
-    made = choose(system, p0, v0, t0, step, outputs, inputs, **chosen)
+    made = choose(system, p0, v0, t0, step, outputs, inputs, events=events, **chosen)
     folder = Path(folder)
     if folder.exists() and any(folder.iterdir()):
         raise ExistingFile(f"the folder must be empty or not exist, and {folder} has files")
@@ -97,7 +97,8 @@ def data(made: Chosen) -> str:
     """Header with the block and its sizes."""
     system, words = made.system, np.frombuffer(written(made), "<u8")
     sizes = [system._watching.known[name][1] for name in made.outputs or ()]
-    counts = {"NQ": system.nq, "NV": system.nv, "M": system.m, "INPUTS": len(made.inputs), "OUTPUTS": sum(sizes)}
+    counts = {"NQ": system.nq, "NV": system.nv, "M": system.m, "INPUTS": len(made.inputs), "OUTPUTS": sum(sizes),
+              "EVENTS": len(made.events)}
     names = " ".join(f"{name}[{size}]" if size > 1 else name for name, size in zip(made.outputs or (), sizes, strict=True))
     lines = [", ".join(f"0x{word:016x}" for word in words[i:i + 6]) for i in range(0, len(words), 6)]
     return "\n".join([

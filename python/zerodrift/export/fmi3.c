@@ -66,7 +66,7 @@ FMU_EXPORT int fmi3DoStep(void *instance, double t, double size, bool no_set, bo
     int status = fmu_step(self, t, size);
     *events = *terminate = false;
     while (!status && self->event >= 0) {
-        *terminate |= event_is_terminal[self->event];
+        *terminate |= fmu_events(self)->terminal[self->event] != 0;
         if (self->returns_early) break;
         status = fmu_step(self, t, size);       /* the simulation is to end, but not before the end of this step */
     }

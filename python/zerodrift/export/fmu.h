@@ -25,7 +25,7 @@ typedef struct fmu {
     bool is_new;                /* outputs must be computed */
     bool returns_early;         /* the importer allows steps to end at events */
     int event;                  /* index of the one that ended the last step; -1: none */
-    int ends[EVENTS + 1];       /* events that end a step: those that end the simulation, or all */
+    int ends[EVENTS + 1];       /* occurrences of events that end a step: the first of each */
     zd_events events;
     char message[500];
     void *environment;
@@ -49,24 +49,22 @@ static int fmu_pass_inputs(fmu *self)
     return FMU_OK;
 }
 
-/* Not called: the core evaluates all events of a unit. */
-static int fmu_evaluate_event(void *data, int event, double t, const double *p, const double *v, const double *x, double *value)
+/* Inputs as the block has them, also those that events have set. */
+static void fmu_read_inputs(fmu *self)
 {
-    return (void)data, (void)event, (void)t, (void)p, (void)v, (void)x, (void)value, 1;
+    for (int i = 0; i < INPUTS; i++) self->inputs[i] = zd_block_input(zd_opened_block(self->opened), i);
 }
 
-static int fmu_pass_event(void *data, int event, double t, const double *p, const double *v)
-{
-    return (void)data, (void)event, (void)t, (void)p, (void)v, 0;
-}
+static const zd_events *fmu_events(const fmu *self) { return zd_block_events_of(zd_opened_block(self->opened)); }
 
+/* Lets every event end a step, where the importer allows it, not only those that end the simulation. */
 static void fmu_watch(fmu *self)
 {
-    for (int i = 0; i < EVENTS; i++) self->ends[i] = self->returns_early || event_is_terminal[i];
-    self->events = (zd_events){
-        .count = EVENTS, .direction = event_direction, .terminal = self->ends, .known = event_table, .evaluate = fmu_evaluate_event,
-        .found = fmu_pass_event};
-    if (EVENTS) zd_opened_watch(self->opened, &self->events);
+    if (!EVENTS || !self->returns_early) return;
+    for (int i = 0; i < EVENTS; i++) self->ends[i] = 1;
+    self->events = *fmu_events(self);
+    self->events.terminal = self->ends;
+    zd_opened_watch(self->opened, &self->events);
 }
 
 static int fmu_begin(fmu *self)
@@ -77,7 +75,7 @@ static int fmu_begin(fmu *self)
     if (!self->opened) return fmu_refuse(self, NULL);
     fmu_watch(self);
     if (zd_opened_begin(self->opened, self->start)) return fmu_refuse(self, zd_opened_message(self->opened));
-    for (int i = 0; i < INPUTS; i++) self->inputs[i] = zd_block_input(zd_opened_block(self->opened), i);
+    fmu_read_inputs(self);
     return FMU_OK;
 }
 
@@ -112,6 +110,7 @@ static int fmu_step(fmu *self, double t, double size)
     if (fmu_pass_inputs(self)) return FMU_ERROR;
     self->is_new = true;
     const int status = zd_opened_advance(self->opened, t + size);
+    fmu_read_inputs(self);
     self->event = status == ZD_EVENT ? zd_run_ended_by(zd_opened_run(self->opened)) : -1;
     return status && status != ZD_EVENT ? fmu_refuse(self, zd_opened_message(self->opened)) : FMU_OK;
 }
@@ -162,7 +161,7 @@ static int fmu_restore(fmu *self, const fmu_state *state)
     if (!state) return fmu_refuse(self, "a state must be given");
     if (zd_opened_restore(self->opened, state->bytes, state->size, TOKEN))
         return fmu_refuse(self, zd_opened_message(self->opened));
-    for (int i = 0; i < INPUTS; i++) self->inputs[i] = zd_block_input(zd_opened_block(self->opened), i);
+    fmu_read_inputs(self);
     self->is_new = true;
     return FMU_OK;
 }

@@ -17,11 +17,12 @@ from .._private import checks, gateway
 from .._private.gateway.mechanisms import blocks
 from .._private.types import ArrayLike, Events, Measures, Settings, SystemLike
 from .._private.writing import with_suffix, write_atomically
+from ..errors import WrongValue
+from ..runs.arguments.events import Watched
 from ..systems.measure_values import component_names
 from .block import Chosen, choose, written
 from .c_source import core_of, data
 from .core_files import CoreFiles
-from .fmu_events import Level, chosen_events, table
 from .fmu_libraries import chosen_platforms, libraries
 from .wasm import text
 
@@ -67,7 +68,8 @@ def fmu(system: SystemLike, path: str | Path, *, step: float, inputs: Sequence[s
     events : Event or measure, or a list of these, optional
         Measures, coordinates or velocities that reach a value. Where the importer allows it (``earlyReturnAllowed``), a step
         returns early at each of them, with its instant as ``lastSuccessfulTime``. A terminal one requests the end of the
-        simulation, in FMI 2.0 by ``fmi2Discard``, in FMI 3.0 at the end of the step if this may not return early.
+        simulation, in FMI 2.0 by ``fmi2Discard``, in FMI 3.0 at the end of the step if this may not return early. What they
+        set by `then`, a dict, are inputs, which have that value until it is set again, from outside or by an event.
     version : {"3.0", "2.0"}
         Version of the FMI standard.
     platforms : list of str, optional
@@ -104,28 +106,34 @@ def fmu(system: SystemLike, path: str | Path, *, step: float, inputs: Sequence[s
     """
     checks.choice("version", version, VERSIONS)
     names = None if platforms is None else chosen_platforms(platforms, version)
-    made = choose(system, p0, v0, t0, checks.number("step", step, above=0, code="step-size"), list(outputs), inputs, **chosen)
-    watched = chosen_events(events, made.system, version)
-    made = made._replace(watched=tuple(each.measure for each in watched if each.measure))
+    step = checks.number("step", step, above=0, code="step-size")
+    made = choose(system, p0, v0, t0, step, list(outputs), inputs, events=events, **chosen)
+    _check_events(made.events, version)
     path = with_suffix(path, ".fmu")
     identifier = re.sub(r"\W", "_", path.stem, flags=re.ASCII)
     identifier = identifier if identifier[:1].isalpha() else f"m_{identifier}"
-    content = _packed(made, identifier, version, names, watched)
+    content = _packed(made, identifier, version, names)
     write_atomically(path, lambda file: file.write(content))
     return path
 
 
-def _packed(made: Chosen, identifier: str, version: str, platforms: Sequence[str] | None,
-            events: Sequence[Level]) -> bytes:
+def _check_events(events: Sequence[Watched], version: str) -> None:
+    for each in events:
+        if each.terminal > 1:
+            raise WrongValue(f"{each.name}.terminal must be True or False in an FMU, not {each.terminal}", "not-available")
+        if version == "2.0" and not each.terminal and not each.then:
+            raise WrongValue(f"{each.name} must be terminal in FMI 2.0, whose steps do not return early, or act", "not-available")
+
+
+def _packed(made: Chosen, identifier: str, version: str, platforms: Sequence[str] | None) -> bytes:
     """The zip file."""
     scalars = _scalars(made)
-    events_table = table(events, made)
-    parts = (written(made), events_table.encode(), version.encode(), gateway.FINGERPRINT.encode())
+    parts = (written(made), version.encode(), gateway.FINGERPRINT.encode())
     token = "{" + hashlib.sha256(b"".join(parts)).hexdigest()[:32] + "}"
     files = core_of(made, OPENED)
     own = {f"fmi{version[0]}.c": text(f"fmi{version[0]}.c"), "fmu.h": text("fmu.h"),
-           "data.h": f'#define TOKEN "{token}"\n{data(made)}{events_table}'}
-    description = (_description3(made, identifier, token, scalars, bool(events)) if version == "3.0" else
+           "data.h": f'#define TOKEN "{token}"\n{data(made)}'}
+    description = (_description3(made, identifier, token, scalars, bool(made.events)) if version == "3.0" else
                    _description2(made, identifier, token, scalars, files))
     binaries = libraries(files, own, version, platforms)
     packed = io.BytesIO()

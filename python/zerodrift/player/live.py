@@ -113,8 +113,9 @@ def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None 
     sol = _motion(system, step, options)
     points = body_points(system, list(sol.p))
     inputs, limits = _given(system, sliders) if sliders is not None else (_inputs(system), {})
-    chosen = choose(system, None, None, 0.0, step, [], list(inputs), **options)._replace(
-        has_grip=True, watched=tuple(map(driven_coordinate, system._drawing.of((Motor, Actuator)))))
+    chosen = choose(system, None, None, 0.0, step, [], list(inputs), **options)
+    driven = map(driven_coordinate, system._drawing.of((Motor, Actuator)))
+    chosen = chosen._replace(has_grip=True, watched=(*chosen.watched, *driven))
     words = table_words(chosen), _parameters.computed_once(functools.partial(_coordinates, system, points))
     limits = _parameters.ranges(limits, system.parameters) if sliders is not None else _automatic(system, words)
     data = written(chosen._replace(limits=limits), words[0])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -90,25 +90,28 @@ def zd_interrupted_in_python(owner: Any) -> int:
 class Watcher:
     """Evaluation of the events of one run, called by the core; stores the states of their occurrences.
 
-    An event is a row with `direction` and `terminal`, as the core's `zd_events` has them, `then`, with which an advance stops at
-    each occurrence; `known`, which the core reads, or None;
-    and, unless the core evaluates it itself, `value(t, p, v, x)` of what is read. Measures are those of the system `of`, which
-    has the equations of `core`.
+    An event is a row with `direction` and `terminal`, as the core's `zd_events` has them; `known`, which the core reads, or None;
+    unless the core evaluates it itself, `value(t, p, v, x)` of what is read; and `actions(places)`, the inputs that it sets, of
+    which `places` has the indices, with their values, or -1 if the caller acts. Measures are those of the system `of`, which has
+    the equations of `core`.
     """
 
-    def __init__(self, core: CoreSystem, events: Sequence[Any], of: CoreSystem | None = None, *, is_own: bool = False) -> None:
+    def __init__(self, core: CoreSystem, events: Sequence[Any], of: CoreSystem | None = None, *, is_own: bool = False,
+                 places: Mapping[str, Any] | None = None) -> None:
         self.events = events
         self._error: BaseException | None = None
         is_measured = any(event.known and event.known.is_measured for event in events)
         self._of = None if of is None or not is_measured or of is core else of if is_own else of.for_run()
         self.found: tuple[list[tuple[float, np.ndarray, np.ndarray]], ...] = tuple([] for _ in events)
         self._shapes = (core.nq,), (core.nv,)
-        ends = [event.terminal if event.then is None else lib.ZD_EACH for event in events]
+        actions = [(i, *each) for i, event in enumerate(events) for each in event.actions(places or {})]
         self._kept = (ffi.new_handle(self), ffi.new("int[]", [event.direction for event in events]),
-                      ffi.new("int[]", ends), known_table([event.known for event in events]))
-        data, direction, terminal, (known, _) = self._kept
+                      ffi.new("int[]", [event.terminal for event in events]), ffi.new("zd_action[]", actions),
+                      known_table([event.known for event in events]))
+        data, direction, terminal, action, (known, _) = self._kept
         self.c = ffi.new("zd_events *", {
             "count": len(events), "direction": direction, "terminal": terminal, "data": data, "known": known,
+            "actions": len(actions), "action": action,
             "of": self._of.c if self._of else ffi.NULL,
             "evaluate": lib.zd_event_in_python, "found": lib.zd_found_in_python})
 

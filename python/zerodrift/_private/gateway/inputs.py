@@ -53,7 +53,7 @@ class Inputs:
     Attributes
     ----------
     values : ndarray (k,)
-        Writable; the core reads it at the start of each advance.
+        Writable; the core reads it at the start of each advance, and events set it.
     """
 
     def __init__(self, names: Sequence[str], initial: np.ndarray, lower: np.ndarray, upper: np.ndarray,
@@ -72,7 +72,7 @@ class Inputs:
         listed = ffi.new("const char *[]", texts)
         self._memory = rows, functions, data, texts, listed, places
         self.c = ffi.new("zd_inputs *", {
-            "count": k, "value": doubles(self.values, k), "lower": doubles(lower, k), "upper": doubles(upper, k),
+            "count": k, "value": doubles(self.values, k, writable=True), "lower": doubles(lower, k), "upper": doubles(upper, k),
             "places": len(places), "place": rows, "derivations": len(derivations), "derive": functions, "data": data,
             "name": listed, "jumps": follows.jumps, "ramp": follows.ramp})
 
@@ -111,7 +111,7 @@ class Inputs:
         """Move the values to other memory (k,), which is read from now on."""
         memory[:] = self.values
         self.values = memory
-        self.c.value = doubles(memory, memory.size)
+        self.c.value = doubles(memory, memory.size, writable=True)
 
     def refused(self) -> str:
         """Rule that an input violates; empty: none does."""

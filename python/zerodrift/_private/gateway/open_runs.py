@@ -68,9 +68,10 @@ class OpenRun(Run):
         """Move to another state at this time; return the status."""
         return lib.zd_run_set_state(self.c, doubles(p, self._core.nq), doubles(v, self._core.nv))
 
-    def found(self, event: int) -> int:
-        """Number of occurrences of an event."""
-        return len(self._watcher.found[event]) if self._watcher else 0
+    @property
+    def acting(self) -> int:
+        """Index of the event at which the caller is to act; -1: none."""
+        return lib.zd_run_acting(self.c)
 
     @property
     def ended_by(self) -> int:

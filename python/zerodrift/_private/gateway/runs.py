@@ -218,6 +218,12 @@ class Run:
         return lib.zd_run_time(run), p, v
 
     @property
+    def energy_jump(self) -> tuple[int, float, float]:
+        """Number of jumps of the state; time in s of the last one, and the change of the energy by it, in J."""
+        last = lib.zd_run_energy_jump(self._run)
+        return last.count, last.t, last.energy
+
+    @property
     def calls(self) -> Mapping[str, float]:
         """Time spent so far in user functions that were called, in s, by what they are."""
         return getattr(self._core, "calls", {})

@@ -35,9 +35,10 @@ class Event:
     of : dict of str to measure, optional
         Measures that the function receives, by argument name, or that symbols of the expression stand for.
     then : callable or dict, optional
-        Action at each occurrence, after which the run goes on: ``then(run)`` may set inputs and `Run.set_state`, as of
-        `Run`; a dict has values of inputs by name. `simulate` and `Run` take it; inputs of a dict need not be named there.
-        A terminal event acts, too, and the last sample is the one before.
+        Action at each occurrence, after which the run goes on: a dict has values of inputs by name, which need not be named as
+        inputs elsewhere. The core sets them, in `simulate`, `Run`, `ensemble`, `block`, `c_source`, `fmu` and live views. Or a
+        function, of `simulate` and `Run`: ``then(run)`` may set inputs and `Run.set_state`. A terminal event acts, too, and the
+        last sample is the one before.
 
     Notes
     -----
@@ -47,8 +48,9 @@ class Event:
 
     With `then` an event is armed again once its function has left zero; several at one instant act in the order of the list, and
     one that acts three times within 1e-9 of the time that has passed is an error. A fixed step that is cut goes on by a short
-    one. Samples of steps have the states before and after `set_state`, and ``sol(t)`` at the instant that was located has the one
-    after; a time of `t_eval` at the instant has the one before. What a function keeps itself is not in saved states.
+    one to its grid. `Solution.jumps` has all actions. Samples of steps have the states before and after `set_state`, and
+    ``sol(t)`` at the instant that was located has the one after; a time of `t_eval` at the instant has the one before. What a
+    function keeps itself is not in saved states.
 
     Reactions and accelerations are those of the state at which the event is evaluated. Where an input jumps, they jump with
     it: the event happens there, and the state after the jump is reported.
@@ -181,13 +183,16 @@ class Watched(NamedTuple):
     known: gateway.KnownEvent | None   # what the core reads, or None
     then: Callable[[Any], object] | Mapping[str, float] | None = None
 
+    def actions(self, places: Mapping[str, Any]) -> list[tuple[int, float]]:
+        """Indices of the inputs that it sets, with their values; -1: a function acts."""
+        if not isinstance(self.then, Mapping):
+            return [(-1, 0.0)] if self.then else []
+        return [(int(i), value) for name, value in self.then.items() for i in np.ravel(places[name])]
+
     def act(self, run: Any) -> None:
-        """Act at an occurrence."""
+        """Call the function that acts at an occurrence."""
         try:
-            if callable(self.then):
-                self.then(run)
-            for name, value in self.then.items() if isinstance(self.then, Mapping) else ():
-                run[name] = value
+            self.then(run)      # type: ignore[operator, misc]
         except BaseException as error:
             checks.tell(error, f"in then of {self.name}, called at t = {run.t:g}")
             raise
@@ -208,7 +213,7 @@ class Watched(NamedTuple):
 def events(given: Any, system: BaseSystem, *, may_act: bool = False) -> tuple[Watched, ...] | None:
     """Check the argument `events` of `simulate`: None, one event or several; each a callable, an `Event` or a measure.
 
-    Those with `then` are refused unless they may act.
+    Functions as `then` are refused unless they may act.
     """
     if given is None:
         return None
@@ -216,8 +221,9 @@ def events(given: Any, system: BaseSystem, *, may_act: bool = False) -> tuple[Wa
     found = (_event("events", given, system),) if is_one else tuple(
         _event(f"events[{i}]", each, system) for i, each in enumerate(given))
     for each in found:
-        if each.then is not None and not may_act:
-            raise WrongValue(f"{each.name}.then must be left out here: simulate and Run act at events", "not-available")
+        if callable(each.then) and not may_act:
+            raise WrongValue(f"{each.name}.then must be a dict of inputs here: functions act in simulate and Run",
+                             "not-available")
     return found
 
 

@@ -89,7 +89,8 @@ class Prepared(NamedTuple):
         if (names := self.settings.get("outputs")) is not None:
             recorded = _outputs.Recorded(names, self.of, core, measured)
         if self.events is not None:
-            watcher = gateway.Watcher(core, self.events, measured or self.of._watching.core, is_own=inputs is not None)
+            watcher = gateway.Watcher(core, self.events, measured or self.of._watching.core, is_own=inputs is not None,
+                                      places=self.declared.places() if self.declared else None)
         return self._replace(core=core, measured_with_inputs=measured, inputs=inputs, recorded=recorded, watcher=watcher)
 
 

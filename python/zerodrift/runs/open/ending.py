@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import functools
 import itertools
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,7 +17,7 @@ from ..arguments import outputs as _outputs
 from ..arguments.inputs import History
 from ..arguments.methods import name_of
 from ..arguments.settings import core_settings
-from ..samples.saving import EVENTS
+from ..samples.saving import EVENTS, JUMPS
 from ..samples.solution import Solution
 from . import diagnosis
 from .beginning import Prepared
@@ -37,14 +38,18 @@ class Outcome(NamedTuple):
 
 
 def solution_of(ready: Prepared, run: gateway.Run, record: Any, results: gateway.Results, outcome: Outcome,
-                span: tuple[float, float] | None = None, history: History | None = None) -> Solution:
+                span: tuple[float, float] | None = None, history: History | None = None,
+                jumps: Sequence[tuple[float, str, float]] = ()) -> Solution:
     """Solution of a run that has ended, with its arrays made at first use."""
     record.join()
+    rows = [*jumps, *((jump.t, ", ".join(jump.impulses), jump.work) for jump in (history.jumps if history else ()))]
+    found = events_found(ready.watcher)
     return Solution._of_run(
         functools.partial(_arrays_and_stats, record, results, outcome.seconds, ready.recorded, ready.system, ready.settings,
                           history),
         status=outcome.status, success=outcome.status in (gateway.DONE, gateway.EVENT), message=message_of(run, outcome),
-        settings=ready.settings, system=ready.system, t_span=span or ready.span, **events_found(ready.watcher))
+        settings=ready.settings, system=ready.system, t_span=span or ready.span,
+        jumps=jumps_of(rows, ready.events, found.get("t_events")), **found)
 
 
 def solution_of_rows(system: BaseSystem, span: tuple[float, float], chosen: dict[str, Any], record: gateway.Record,
@@ -53,6 +58,7 @@ def solution_of_rows(system: BaseSystem, span: tuple[float, float], chosen: dict
     """Solution of a completed run that the core made in a batch; `events` are the t, p and v of its events."""
     return Solution._of_run(functools.partial(_arrays_and_stats, record, results, seconds, None, system, chosen),
                             status=status, success=True, message=message, settings=chosen, system=system, t_span=span,
+                            jumps=jumps_of((), (), ()),
                             **({} if events is None else dict(zip(EVENTS, events, strict=True))))
 
 
@@ -118,6 +124,14 @@ def _shown(error: BaseException | None) -> str:
         return repr(error)
     except Exception:
         return type(error).__name__
+
+
+def jumps_of(rows: Sequence[tuple[float, str, float]], events: Any, times: Any) -> np.ndarray:
+    """Field `jumps`: these rows, and those of actions without a change of the energy."""
+    known = {(t, name) for t, name, _ in rows}
+    acts = [(t, event.name, 0.0) for event, found in zip(events or (), times or (), strict=True) if event.then is not None
+            for t in found.tolist() if (t, event.name) not in known]
+    return np.array(sorted([*rows, *acts], key=lambda row: row[0]), JUMPS)
 
 
 def events_found(watcher: gateway.Watcher | None) -> dict[str, tuple[np.ndarray, ...]]:

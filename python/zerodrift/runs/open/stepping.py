@@ -6,8 +6,6 @@ import math
 import time
 from typing import Any
 
-import numpy as np
-
 from ..._private import checks, gateway
 from ..._private.types import ArrayLike
 from ...errors import InUse, WrongValue
@@ -19,8 +17,21 @@ from .control import Sampling, called
 from .ending import Outcome, failure_of, solution_of, with_solution
 from .present import Present
 
-AT_ONE_INSTANT = 1e-9   # of the time that has passed: an event acts at most twice
 SLICE = 0.03        # seconds that the core runs between two checks of keyboard and progress
+
+
+class Noted:
+    """Jumps of the state in the energy balance of a run: rows of time in s, name, and change of the energy in J."""
+
+    def __init__(self, core: gateway.Run) -> None:
+        self.rows, self._count = list[tuple[float, str, float]](), core.energy_jump[0]
+
+    def note(self, core: gateway.Run, name: str = "break") -> None:
+        """Note the last jump, if it is new; `name`: of what made it, by default a law at its break; "": it is not noted."""
+        count, t, energy = core.energy_jump
+        if count != self._count:
+            self._count = count
+            self.rows += [(t, name, energy)] if name else []
 
 
 class Stepping(Present):
@@ -35,14 +46,13 @@ class Stepping(Present):
         self._history: History | None = None
         self._c_record, self._seconds = gateway.NO_RECORD, 0.0
         self._drives = Drives(ready.declared) if ready.declared and ready.declared.follows.jumps else None
-        self._actions = {i: each for i, each in enumerate(ready.events or ()) if each.then is not None}
         self._open(ready.created(gateway.OpenRun))
 
     def _open(self, core: gateway.OpenRun) -> None:
         super()._open(core)
-        self._acted: dict[int, list[float]] = {i: [] for i in self._actions}     # times
         self.jump: Jump | Any = None
         self._jumps = core.jumps
+        self._noted = Noted(core)
 
     def step(self, steps: int = 1) -> None:
         """Make steps: fixed ones, or as many as the integrator chooses.
@@ -69,7 +79,7 @@ class Stepping(Present):
         if self._sampling is not None:
             self._require_idle()
             self._sample(self._sampling, self.steps + checks.count("steps", steps, least=0), math.inf)
-        elif self._record is not None or self._drives is not None or self._actions:
+        elif self._record is not None or self._drives is not None or self._is_controlled:
             self._go(checks.count("steps", steps, least=0), math.inf)
         elif status := gateway.STEP(self._c, steps, self._c_record):
             self._attend(status)
@@ -120,32 +130,18 @@ class Stepping(Present):
     def _go(self, steps: int, t: float) -> None:
         """Advance by a number of steps or to a time, whichever comes first."""
         self._require_idle()
-        core, begin, last, goes_on = self._core, time.perf_counter(), self.steps + steps, True
-        while goes_on:
-            if self._history is not None:
-                self._history.note(core.t, self.inputs)
-            status = core.set_goal(last - core.steps, t) or core.advance(self._record, SLICE)
-            self._note_jump()
-            self._attend(status)
-            goes_on = self._acts() and core.steps < last and core.t < t
+        core, begin = self._core, time.perf_counter()
+        if self._history is not None:
+            self._history.note(core.t, self.inputs)
+        self._attend(core.set_goal(steps, t) or core.advance(self._record, SLICE))
         self._seconds += time.perf_counter() - begin
 
     def _acts(self) -> bool:
-        """Act at the events of the present instant; false if there are none, or one of them ends the run."""
-        if self.event not in self._actions:
-            return False
-        t, near, goes_on = self.t, AT_ONE_INSTANT * (self.t - self._ready.span[0]), True
-        for i, event in self._actions.items():
-            acted = self._acted[i]
-            if self._core.found(i) == len(acted):
-                continue
-            acted.append(t)
-            if len(acted) > 2 and max(np.diff(acted[-3:])) < near:
-                raise WrongValue(f"{event.name} must not act again and again at one instant, t = {t:.9g}, as where a ball "
-                                 "bounces ever less: what then stays needs a constraint", "out-of-range")
-            goes_on = goes_on and len(acted) != event.terminal
-            called(event.act, self)
-        return goes_on
+        """Call the function of the event at which the core pauses; False: there is none."""
+        acting = self._core.acting
+        if acting >= 0:
+            called(self._ready.events[acting].act, self)
+        return acting >= 0
 
     def set_state(self, p: ArrayLike | None = None, v: ArrayLike | None = None) -> None:
         """Move to another state at the present time, as after an impact.
@@ -162,8 +158,8 @@ class Stepping(Present):
 
         Notes
         -----
-        The energy balance counts from the new state on; `energy_input` has nothing of the change. Events that it passes do not
-        occur.
+        The energy balance counts from the new state on; `energy_input` has nothing of the change, which `Solution.jumps` has.
+        Events that it passes do not occur.
 
         Examples
         --------
@@ -179,11 +175,14 @@ class Stepping(Present):
         if status := core.set_state(*given):
             error = core.error(status)
             core.set_state(*before)
+            self._noted.note(core, "")
             raise error
+        self._noted.note(core, "set_state" if core.acting < 0 else self._ready.events[core.acting].name)
 
-    def _note_jump(self) -> None:
-        """Note the jump of speeds in the first step of the last advance, if there was one."""
+    def _note_jumps(self) -> None:
+        """Note the jump of speeds in the first step of the last advance, if there was one, and that at its end."""
         core = self._core
+        self._noted.note(core)
         if self._drives is None or core.jumps == self._jumps:
             return
         self._jumps, self.jump = core.jumps, self._drives.jump(*core.jump())
@@ -194,11 +193,15 @@ class Stepping(Present):
         """Go on after a pause or with more memory; raise the error of a failure."""
         core, record = self._core, self._record
         while status in (gateway.PAUSED, gateway.FULL):
+            self._note_jumps()
+            if not self._acts() and self._history is not None:
+                self._history.note(core.t, self.inputs)
             if status == gateway.FULL:
                 recording.check_memory(record.next_rows, record.row_bytes, stacklevel=4)
                 record.grow()
                 self._c_record = record.c
             status = core.advance(record, SLICE)
+        self._note_jumps()
         if record is not None:
             record.keep()
         if status not in (gateway.DONE, gateway.EVENT):
@@ -222,25 +225,25 @@ class Stepping(Present):
     def _solution(self, outcome: Outcome) -> Solution:
         record = self._record if self._ready.path else self._record.snapshot()
         span = self._ready.span[0], self.t
-        return solution_of(self._ready, self._core, record, self._core.results(), outcome, span, self._history)
+        return solution_of(self._ready, self._core, record, self._core.results(), outcome, span, self._history, self._noted.rows)
 
     def _control(self) -> None:
-        """Call the controllers that are due, and aim at the next instant of one."""
+        """Act at an event; or call the controllers that are due, and aim at the next instant of one."""
         core, sampling = self._core, self._sampling
+        if self._acts():
+            return
         if sampling is not None:
             sampling.call(self)
             steps, instant = sampling.next(self)
             core.set_goal(gateway.MAX_STEPS if steps is None else steps, instant)
-        elif self.event is not None:
-            core.set_goal(gateway.MAX_STEPS, math.inf)
         if self._history is not None:
             self._history.note(core.t, self.inputs)
 
     def _goes_on(self, status: int) -> bool:
-        """True if a run with an end has reached an instant of a controller, or an event after which it goes on, not its end."""
+        """True if a run with an end has reached an instant of a controller, not its end."""
         ready = self._ready
         if status != gateway.DONE:
-            return status == gateway.EVENT and self._acts()
+            return False
         requested = ready.settings.get("t_eval") if ready.events is None else None
         end = ready.span[1] if requested is None else requested[-1]
         return self._sampling is not None and self._core.t < end and self.event is None

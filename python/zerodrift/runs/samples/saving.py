@@ -17,6 +17,7 @@ from ..arguments.methods import CARDS, RowSettings
 if TYPE_CHECKING:
     from pathlib import Path  # slow to import, as json is
 
+JUMPS = np.dtype([("t", float), ("name", "U64"), ("energy", float)])     # rows of a solution's `jumps`
 EVENTS = ("t_events", "p_events", "v_events")   # of a solution: an array for each event
 
 

@@ -89,6 +89,10 @@ class Solution(Named):
         The simulated system.
     t_span : tuple of float
         Requested (t0, t1) in s.
+    jumps : ndarray (k,)
+        Actions at events, and jumps of speeds that are prescribed or inputs, in order of time: structured, with the fields `t` in
+        s, `name` of the event or motor, or "break" of a law, and `energy`, the change of the energy in J, which the balance
+        includes.
     t_events : tuple of ndarray, or None
         Times of each event in s; None without `events`.
     p_events, v_events : tuple of ndarray (k, nq), (k, nv), or None
@@ -117,6 +121,7 @@ class Solution(Named):
     settings: dict[str, Any]
     system: BaseSystem
     t_span: tuple[float, float]
+    jumps: np.ndarray
     t_events: tuple[np.ndarray, ...] | Any = None
     p_events: tuple[np.ndarray, ...] | Any = None
     v_events: tuple[np.ndarray, ...] | Any = None

@@ -16,7 +16,7 @@ from . import plane, space
 
 SECTIONS = ("gravity", "bodies", "joints", "quantities", "terms", "relations", "forces", "measures", "laws", "instructions",
             "results", "numbers", "splines", "knots", "start", "outputs", "inputs", "settings", "methods", "names", "parameters",
-            "effects", "products", "texts")
+            "effects", "products", "events", "actions", "texts")
 VERSION = lib.ZD_BLOCK_VERSION
 # by the names of operations in `symbolics.graph.lowering`, and of functions
 OPERATIONS = {"+": lib.ZD_CODE_PLUS, "-": lib.ZD_CODE_MINUS, "*": lib.ZD_CODE_TIMES, "/": lib.ZD_CODE_OVER,
@@ -103,7 +103,7 @@ def settings(core_settings: Any) -> list[float]:
 
 
 WIDTHS = {"laws": 7, "instructions": 4, "splines": 2, "knots": 5, "inputs": 5, "settings": 9, "methods": 2 + lib.ZD_ROW_VALUES,
-          "parameters": 5, "effects": 3, "products": 7}
+          "parameters": 5, "effects": 3, "products": 7, "events": 6, "actions": 3}
 
 
 def assembled(dimension: int, sections: Mapping[str, Sequence[float]], counts: Mapping[str, int], texts: Texts) -> bytes:
