@@ -9,15 +9,14 @@ import re
 import numpy as np
 import pytest
 
-import digits
 import written_laws
 import zerodrift as zd
+from digits import in_core, slope_of
 from native_systems import needs_compiler
 from support import assert_close, called, refused
-from zerodrift._private.gateway.compiled import programs
 from zerodrift.laws.recording import record
 from zerodrift.mechanisms.elements.user_functions import Law
-from zerodrift.mechanisms.equations import function_calls, function_programs
+from zerodrift.mechanisms.equations.function_calls import Holonomic
 
 LAW_ROUNDING = 1e-13        # of the largest of values of the function
 PID = written_laws.CALLS[0][0]
@@ -34,19 +33,6 @@ def names_of(function):
 def law_of(function):
     names = names_of(function)
     return Law("law", function, of={name: f"{name}.angle" for name in names if name != "t"})
-
-
-def in_core(law, kind=function_calls.ForceLaw):
-    """Function of t and of measures that is evaluated by the core: its value, and of a constraint its derivatives."""
-    k = len(law.measures)
-    row = kind(law, [(i, False) for i in range(k)], {})
-    written = function_programs.program_of(row, k)
-    program = programs.expressions(written.program)
-    numbers = programs.with_addresses(np.array(written.numbers), written.splines)
-
-    def values(t, x):
-        return programs.reader(program, numbers, t, x, np.zeros_like(x))().squeeze()
-    return values
 
 
 def check_values(function):
@@ -72,11 +58,11 @@ def check_slopes(function):
     law = law_of(function)
     chance, own = np.random.default_rng(4), [name for name in law.names if name != "t"]
     points = chance.uniform(-3, 5, (30, 1 + len(own)))
-    found = in_core(law, function_calls.Holonomic)(points[:, 0].copy(), points[:, 1:].copy())
+    found = in_core(law, Holonomic)(points[:, 0].copy(), points[:, 1:].copy())
     for point, (_, *slopes) in zip(points, found, strict=True):
         known = dict(zip(("t", *own), point, strict=True))
         for name, slope in zip((*own, "t"), slopes, strict=False):
-            assert_close(slope, digits.slope(law.formula, known, name), 1e-12, scale=1.0)
+            assert_close(slope, slope_of(law.formula, known, name), 1e-12, scale=1.0)
 
 
 @pytest.mark.parametrize("function", written_laws.RECORDED,

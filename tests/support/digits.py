@@ -1,10 +1,13 @@
-"""Formulas in 50 digits, and their derivatives as differences."""
+"""Laws as the core evaluates them, and formulas in 50 digits, with their derivatives as differences."""
 
 from fractions import Fraction
 
 import mpmath as mp
+import numpy as np
 
+from zerodrift._private.gateway.compiled import programs
 from zerodrift.laws.formula import Evaluation
+from zerodrift.mechanisms.equations import function_calls, function_programs
 
 DIGITS, STEP = 60, mp.mpf(10) ** -25
 
@@ -45,8 +48,21 @@ def value(formula, known):
         return Digits(formula.operations, {name: mp.mpf(x) for name, x in known.items()})(len(formula.operations) - 1)
 
 
-def slope(formula, known, name):
+def slope_of(formula, known, name):
     """Derivative with respect to a name."""
     with mp.workdps(DIGITS):
         return float((value(formula, {**known, name: known[name] + STEP}) - value(formula, {**known, name: known[name] - STEP}))
                      / (2 * STEP))
+
+
+def in_core(law, kind=function_calls.ForceLaw):
+    """Function of t and of measures that is evaluated by the core: its value, and of a constraint its derivatives."""
+    k = len(law.measures)
+    row = kind(law, [(i, False) for i in range(k)], {})
+    written = function_programs.program_of(row, k)
+    program = programs.expressions(written.program)
+    numbers = programs.with_addresses(np.array(written.numbers), written.splines)
+
+    def values(t, x):
+        return programs.reader(program, numbers, t, x, np.zeros_like(x))().squeeze()
+    return values
