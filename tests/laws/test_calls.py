@@ -25,6 +25,8 @@ def noisy(speed):
 
 def test_print_says_how_laws_are_evaluated():
     assert "laws: torque of motor 'drive' (graph)" in str(machine(lambda t, speed: np.sin(t) - speed))
+    assert "(graph, not portable to the bit: Pow, tanh)" in str(machine(lambda speed: -np.tanh(speed) + abs(speed) ** 1.3))
+    assert "(graph)" in str(machine(lambda speed: -speed * abs(speed) ** 1.5 if speed > 0 else np.cos(speed) % 1))
     assert "laws: torque of motor 'drive' (table)" in str(machine(zd.table([0, 1], [0, 1])))
     assert "laws: torque of motor 'drive' (call: uses " in str(machine(noisy))
     assert "laws" not in str(machine(1.0))

@@ -15,6 +15,7 @@ from ..symbolics.graph.graph import Graph, Node
 from ..symbolics.graph.plain_functions import NAMED, SPLINE
 from ..systems import autodiff
 
+EXACT = {"sin", "cos", "Abs", "floor", "ceiling", "fmod", SPLINE.__name__}      # functions of the same bits everywhere
 Operation = tuple[str, Any]     # a kind of node and its content, with numbers of earlier operations in place of nodes
 SIGNS: dict[str, Callable[[Any, Any], bool]] = {
     "<": lambda a, b: a < b, "<=": lambda a, b: a <= b, ">": lambda a, b: a > b, ">=": lambda a, b: a >= b,
@@ -101,6 +102,13 @@ class Formula:
     def tables(self) -> list[Any]:
         """Tables that it reads."""
         return [table for table in self._leaves(object) if not isinstance(table, str)]
+
+    @property
+    def of_library(self) -> list[str]:
+        """Functions of the C library that it calls: their last bits differ between machines."""
+        called = {content[0] for kind, content in self.operations if kind == "call"} - EXACT
+        has_powers = any(2 * exponent % 1 for kind, content in self.operations if kind == "product" for _, exponent in content)
+        return sorted(called | {"Pow"} if has_powers else called)
 
     def renamed(self, names: Mapping[str, str]) -> Formula:
         """The same formula of other quantities."""

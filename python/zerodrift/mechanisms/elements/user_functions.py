@@ -71,10 +71,13 @@ class Law:
 
     @property
     def kind(self) -> str:
-        """"graph", "table", or "call" with the reason; empty for a number."""
+        """"graph", with functions whose bits are not those of all machines; "table"; or "call" with the reason; empty for a number."""
         if self.constant is not None:
             return ""
-        return f"call: {self.why_called}" if self.why_called else "graph" if self.formula is not None else "table"
+        if self.formula is None:
+            return f"call: {self.why_called}" if self.why_called else "table"
+        named = self.formula.of_library
+        return f"graph, not portable to the bit: {', '.join(named)}" if named else "graph"
 
     def call(self, why: str) -> None:
         """Keep a function as a call, though it could be recorded."""
