@@ -13,6 +13,13 @@ int zd_expressions_have_ends(const zd_expressions *self, const double *numbers)
     return 0;
 }
 
+int zd_expressions_are_within(const zd_expressions *self, const double *numbers, double t)
+{
+    for (const zd_instruction *next = self->first; next->code != ZD_CODE_END; next++)
+        if (next->code == ZD_CODE_SPLINE && (next->b != self->numbers || zd_spline_ends_before(numbers[next->a], t, 0))) return 0;
+    return 1;
+}
+
 /* The value of an instruction of one value; NaN of a spline beyond its ends. */
 static double value_of(const zd_instruction *it, const double *value, double rtol, double atol)
 {

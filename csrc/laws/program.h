@@ -61,6 +61,8 @@ void zd_expressions_evaluate_all(const zd_expressions *self, const double *numbe
 int zd_expressions_have_ends(const zd_expressions *self, const double *numbers);
 int zd_expressions_are_defined(const zd_expressions *self, const double *numbers, double rtol, double atol, double t, const double *x,
                                const double *xdot);
+/* True if all tables are read at t, within their ends. */
+int zd_expressions_are_within(const zd_expressions *self, const double *numbers, double t);
 /* Runs instructions without units; values go to `to` and the places after it, within the frame `value`. */
 void zd_program_run(const zd_instruction *next, double *value, double *to);
 /* The value of an operation on values. */

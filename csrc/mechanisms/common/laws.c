@@ -63,6 +63,7 @@ static int check(const zd_planned_elements *elements, const zd_readings *at, int
 {
     const zd_law_program *program = elements->program + law;
     if (law < 0 || !elements->program || !program->has_ends) return ZD_DONE;
+    if (!at) return zd_expressions_are_within(program->expressions, program->numbers, t) ? ZD_DONE : ZD_NOT_FINITE;
     read_terms(elements, at, first, terms);
     if (zd_expressions_are_defined(program->expressions, program->numbers, rtol, atol, t, at->x, at->xdot)) return ZD_DONE;
     return call(elements, at, law, t);

@@ -71,6 +71,7 @@ int OF(read)(const void *data, int law, double t, const double *p, const double 
 int OF(check_domain)(const void *data, double rtol, double atol, double t, const double *p, const double *v, double *scratch)
 {
     const MECHANISM *self = data;
+    if (!zd_laws_check(&self->elements, NULL, rtol, atol, t)) return ZD_DONE;
     OF(frame) frame;
     OF(frame_of)(self, scratch, &frame);
     const zd_readings readings = OF(frame_readings)(self, &frame);

@@ -101,7 +101,7 @@ int zd_force_evaluate(const zd_planned_elements *elements, const zd_readings *at
 int zd_force_read(const zd_planned_elements *elements, const zd_readings *at, int law, double t, const double *r, double *u);
 /* value <- a user function of t and of x (count,) alone */
 int zd_law_evaluate(const zd_planned_elements *elements, const zd_readings *at, int law, int count, const double *x, double t, double *value);
-/* zd_system.check_domain(), for all that has tables with ends */
+/* zd_system.check_domain(), for all that has tables with ends. at NULL: ZD_DONE if these are tables of t, within their ends. */
 int zd_laws_check(const zd_planned_elements *elements, const zd_readings *at, double rtol, double atol, double t);
 int zd_forces_power(const zd_planned_elements *elements, const zd_readings *at, double t, double *power);     /* sum over all, for (28) */
 /* Potential energy: V of gravity plus the energy stored in springs. */
