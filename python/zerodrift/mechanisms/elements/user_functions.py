@@ -71,7 +71,7 @@ class Law:
 
     @property
     def kind(self) -> str:
-        """"graph", with functions whose bits are not those of all machines; "table"; or "call" with the reason; empty for a number."""
+        """"graph", with functions whose bits differ by machine; "table"; or "call" with the reason; empty for a number."""
         if self.constant is not None:
             return ""
         if self.formula is None:
