@@ -1,7 +1,7 @@
 """Time of a step with user functions in all their forms, compared with that of an expression.
 
-Run it with ``python tests/bench/bench_laws.py``. It writes ``results/laws.csv``. A slider-crank has a force by a law of the crank's
-speed, or of time. Steps are of RK4, of fixed size, with the projection; forms are timed in turn, in one process, the
+Run it with ``python tests/bench/bench_laws.py``. It writes ``results/laws.csv``. A force of a slider-crank is a law of the
+crank's speed, or of time. Steps are of RK4, of fixed size, with the projection; forms are timed in turn, in one process, the
 minimum of their rounds, in processor time, which other processes disturb little.
 """
 
