@@ -10,6 +10,7 @@ import pytest
 import zerodrift as zd
 from core_objects import AT_FIXED_PLACES, CC, STRICT, needs_compiler, objects_of, shared_folder
 from support import called, refused, relay
+from written_laws import machine_of_laws
 
 ALLOCATED = """
 #include <stdio.h>
@@ -59,6 +60,15 @@ def test_events_act_with_the_bits_of_simulate(tmp_path, built):
     rows, _ = printed(built(folder), 5.0)
     assert len(sol.jumps) == 4
     np.testing.assert_array_equal(rows, np.column_stack([sol.t, sol["pin.angle"]]))
+
+
+@needs_compiler
+def test_recorded_functions_have_the_bits_of_simulate(tmp_path, built):
+    m, names = machine_of_laws()
+    folder = zd.c_source(m, tmp_path / "laws", step=1e-2, outputs=names)
+    sol = zd.simulate(m, 0.3, step=1e-2, outputs=names, vector="baseline", closed_form=False)
+    rows, _ = printed(built(folder), 0.3)
+    np.testing.assert_array_equal(rows, np.column_stack([sol.t, *(sol[name] for name in names)]))
 
 
 @needs_compiler

@@ -12,6 +12,7 @@ import zerodrift as zd
 from core_objects import needs_compiler
 from few_bodies import two_links
 from support import assert_close, refused, relay
+from written_laws import machine_of_laws
 from zerodrift.export import fmu_libraries
 from zerodrift.symbolics.compile import compilers
 
@@ -102,6 +103,15 @@ def test_a_constant_input_gives_the_numbers_of_simulate(unit):
     sol = zd.simulate(two_links(2.0), 1.0, step=STEP, outputs=OUTPUTS, vector="baseline", closed_form=False)
     expected = np.column_stack([sol[name] for name in OUTPUTS])[::10]
     np.testing.assert_allclose(columns(found)[1:], expected[1:], rtol=0, atol=1e-10)
+
+
+def test_recorded_functions_have_the_bits_of_simulate(tmp_path):
+    m, names = machine_of_laws()
+    unit = Opened(zd.fmu(m, tmp_path / "laws", step=STEP, outputs=names))
+    unit.step(100)
+    sol = zd.simulate(m, 0.1, step=STEP, outputs=names, vector="baseline", closed_form=False)
+    assert [unit[name] for name in names] == [sol[name][-1] for name in names]
+    unit.close()
 
 
 def test_an_input_that_jumps_between_steps_gives_the_bits_of_an_open_run(unit):

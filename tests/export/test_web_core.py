@@ -15,7 +15,8 @@ import tolerances as tol
 import zerodrift as zd
 from analysis.test_reach_of_drives import driven
 from browser import Browser, needs_chromium
-from support import relay
+from support import assert_close, relay
+from written_laws import machine_of_laws
 from zerodrift._private.rotations import rotation_of
 from zerodrift.errors import sentence
 from zerodrift.export import wasm
@@ -86,6 +87,16 @@ def test_runs_have_the_bits_of_the_native_core(web, model):
     run = zd.Run(model(), step=step, closed_form=False, vector="baseline")
     run.step(steps)
     assert found == [bits(run.p), bits(run.v)]
+
+
+def test_recorded_functions_have_the_digits_of_the_native_core(web):
+    """The C library is another one there."""
+    m, names = machine_of_laws()
+    found, = web(f"const m = zd.create(core, block('it')); zd.step(m, 30); tell({names}.map((name) => zd.read(m, name)[0]));",
+                 it=zd.block(m, step=1e-2, outputs=[]))
+    sol = zd.simulate(m, 0.3, step=1e-2, outputs=names, vector="baseline", closed_form=False)
+    for name, value in zip(names, found, strict=True):
+        assert_close(value, sol[name][-1], 1e-13, scale=1.0, what=name)
 
 
 def test_events_set_inputs(web):

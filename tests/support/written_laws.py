@@ -5,6 +5,7 @@ import collections
 import dataclasses
 import enum
 import functools
+import inspect
 import itertools
 import math
 import operator
@@ -15,6 +16,8 @@ from math import exp, sqrt
 
 import numpy as np
 from numpy import sin
+
+import zerodrift as zd
 
 K, C, L0, GRAVITY = 120.0, 3.0, 0.3, 9.81
 GAINS = [1.0, -2.0, 0.5]
@@ -483,3 +486,17 @@ def written(shape, body):
     space = dict(globals())
     exec(shape.format(body), space)
     return space["law"]
+
+
+def machine_of_laws():
+    """A swing, of whose motion all recorded functions are measures, and their names."""
+    m = zd.Mechanism("laws", gravity=(0.3, -9.81))
+    arm = m.link("arm", (0, 0), (1, 0), mass=1.0)
+    m.revolute("pin", m.ground, arm.start)
+    functions = [each for each in RECORDED if each is not np.sin]
+    functions += [written(shape, body) for shape in SHAPES.values() for body in BODIES]
+    for i, function in enumerate(functions):
+        given = inspect.signature(function).parameters.values()
+        wanted = [each.name for each in given if each.default is each.empty and each.name != "t"]
+        m.measure(f"law{i}", function, of=dict(zip(wanted, ("pin.angle", "pin.speed", "arm.position.x"), strict=False)))
+    return m, [f"law{i}" for i in range(len(functions))]
