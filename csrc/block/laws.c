@@ -87,7 +87,8 @@ static void unpack(zd_block_laws *self, const law_entry *of, int number)
         result[i] = (uint16_t)*zd_block_entry(of->layout, ZD_BLOCK_RESULTS, (int)word[FIRST_RESULT] + i);
     self->law[number] = (zd_expressions){instruction, (int)word[NUMBERS], (int)word[TERMS], (int)word[TERMS], (int)word[RESULTS], of->frame,
                                          result};
-    self->program[number] = (zd_law_program){self->law + number, numbers, zd_expressions_have_ends(self->law + number, numbers)};
+    self->program[number] = (zd_law_program){
+        .expressions = self->law + number, .numbers = numbers, .has_ends = zd_expressions_have_ends(self->law + number, numbers)};
     self->have_ends |= self->program[number].has_ends;
 }
 

@@ -88,8 +88,10 @@ static zd_run *create_run(zd_arena *arena, const zd_system *system, const zd_set
         .sizes = settings->steps == ZD_FIXED_STEPS ? &zd_fixed_sizes : &zd_adaptive_sizes,
         .end = settings->t1, .limit = INFINITY, .before_break = INFINITY, .t_begin = settings->t0,
     };
-    if (zd_is_adaptive(&run->loop)) run->loop.control = zd_adaptive_create(arena, &run->stepper, settings->t0);
-    else run->loop.undivided = zd_state_create(arena, motion);
+    if (zd_is_adaptive(&run->loop)) {
+        run->loop.control = zd_adaptive_create(arena, &run->stepper, settings->t0);
+        run->loop.switching = zd_switching_create(arena, motion);
+    } else run->loop.undivided = zd_state_create(arena, motion);
     run->recorder = zd_recorder_create(arena, settings, motion);
     run->output = zd_output_create(arena, settings, &run->loop, &run->recorder);
     run->watch = zd_watch_create(arena, settings->events, &run->output);

@@ -125,9 +125,12 @@ static void describe_collapse(const zd_run *run, char *to, size_t size)
     const zd_collapse *collapse = &run->loop.control.collapse;
     const double t = run->motion.point->t;
     const int digits = digits_of(collapse->t, t);
-    snprintf(to, size, "the step size has collapsed %d times between t = %.*g and %.*g, now to %.3g s: the rate of velocity %d jumps "
-             "back and forth there, as by a force that jumps where its speed changes its sign; a smooth force, or friction that "
-             "sticks, takes fewer steps; max_steps=None goes on", ZD_COLLAPSES, digits, collapse->t, digits, t, collapse->h,
+    char where[160] = "a law jumps back as soon as it has jumped, as both of its sides lead to the jump";
+    if (collapse->count)
+        snprintf(where, sizeof where, "the step size has collapsed %d times between t = %.*g and %.*g, now to %.3g s", ZD_COLLAPSES, digits,
+                 collapse->t, digits, t, collapse->h);
+    snprintf(to, size, "%s: the rate of velocity %d jumps back and forth there, as by dry friction, a force that jumps where its speed "
+             "changes its sign; a smooth force, or friction that sticks, takes fewer steps; max_steps=None goes on", where,
              (int)run->motion.statistics.part);
 }
 

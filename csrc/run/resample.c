@@ -121,12 +121,40 @@ static int is_near(const zd_resample *self, int64_t sample)
     return is;
 }
 
+static void compare(zd_resample *self, int64_t sample)
+{
+    const zd_saved *saved = self->saved;
+    const zd_system *system = &self->run->motion.system;
+    zd_switching_compare(&self->run->loop, time_of(saved, sample), sample_of(saved, saved->p, system->nq, sample),
+                         sample_of(saved, saved->v, system->nv, sample));
+}
+
+/* Repeats a step that begins or ends where a comparison changes at which a force jumps, with that as it was in the step; 0: it is another. */
+static int make_at_switch(zd_resample *self, int64_t sample, int *status)
+{
+    zd_step_loop *loop = &self->run->loop;
+    if (!loop->switching.count) return 0;
+    for (int64_t i = self->known_samples; i < self->saved->samples; i++) compare(self, i);
+    self->known_samples = self->saved->samples;
+    compare(self, sample);
+    compare(self, sample + 1);
+    if (!zd_switching_hold_between(loop)) return 0;
+    self->is_general = 1;
+    *status = make_step_from(self, sample, 1);
+    if (!*status && is_near(self, sample + 1)) return 1;
+    zd_switching_turn(loop);
+    *status = make_step_from(self, sample, 1);
+    return 1;
+}
+
 /* The same again in (p, v) if it ends elsewhere, as the run had chosen other independent variables before the sample. */
 static int make_again(zd_resample *self, int64_t sample)
 {
     zd_stepper *stepper = &self->run->stepper;
+    int status;
     zd_variables_restore(stepper);
-    int status = make_on_each_path(self, sample);
+    if (make_at_switch(self, sample, &status)) return status;
+    status = make_on_each_path(self, sample);
     if (!stepper->dependent.formulation || !zd_is_adaptive(&self->run->loop) || (!status && is_near(self, sample + 1))) return status;
     zd_closed_form_leave(&self->run->motion);
     status = zd_variables_use_dependent(stepper);

@@ -133,6 +133,7 @@ typedef struct zd_resample {
     zd_run *run;            /* a run from the same start, not advanced yet */
     const zd_saved *saved;
     int64_t sample;         /* sample at the start of the step repeated last; -1: none */
+    int64_t known_samples;  /* number of samples whose comparisons at which forces jump are known */
     int is_general;         /* true if that step leaves the closed-form path for the matrix path */
     int has_polynomial;     /* true if its dense output is available */
 } zd_resample;

@@ -18,6 +18,7 @@ int zd_run_set_state(zd_run *run, const double *p, const double *v)
     if (status) return status;
     zd_motion_add_jump(motion, stepper->t, after - before);
     run->tally.start_saved = run->settings.t_eval != NULL;
+    zd_switching_release(&run->loop);
     status = zd_renew(&run->loop);
     return status ? status : zd_safeguards_begin(&run->safeguards, run->loop.step + 1);
 }

@@ -130,7 +130,7 @@ static int estimate(zd_step_loop *loop, const zd_attempt *attempt)
     if (status) return status;
     if (isnan(control->norm)) return ZD_NOT_FINITE;
     control->move = loop->settings->max_move > 0 ? find_move(loop) : 0;
-    if (zd_control_accepts(control)) watch_stiffness(loop, lambda_h);
+    if (zd_control_accepts(control) && !loop->switching.holds) watch_stiffness(loop, lambda_h);
     return ZD_DONE;
 }
 
@@ -164,7 +164,8 @@ static int begin(zd_step_loop *loop)
     loop->control.largest_factor = ZD_MAX_FACTOR;
     const double latest = zd_step_loop_latest(loop);
     loop->control.smallest = 16 * 0x1p-52 * fmax(fabs(loop->stepper->t), isfinite(latest) ? fabs(latest) : 0);
-    return predict_step(loop);
+    const int status = loop->switching.count ? zd_switching_begin(loop) : ZD_DONE;
+    return status ? status : predict_step(loop);
 }
 
 static int next(zd_step_loop *loop, zd_attempt *attempt)
@@ -186,7 +187,8 @@ static int watch_collapse(zd_step_loop *loop)
         control->collapse.count = 0;
         return ZD_DONE;
     }
-    if (h != control->h || !zd_collapse_count(&control->collapse, loop->stepper, h, control->scale)) return ZD_DONE;
+    const int is_cut = loop->switching.is_cut;
+    if ((h != control->h && !is_cut) || !zd_collapse_count(&control->collapse, loop->stepper, h, is_cut ? NULL : control->scale)) return ZD_DONE;
     loop->motion->statistics.part = zd_collapse_velocity(&control->collapse, loop->motion->system.nv);
     return ZD_COLLAPSED;
 }
@@ -198,7 +200,7 @@ static int accept(zd_step_loop *loop)
     const double h = control->bounded, intended = control->h;
     const int status = watch_collapse(loop);
     control->h = by_move(control, h, h * fmin(control->largest_factor, factor(loop, control->norm)));
-    if (loop->stepper->t == zd_step_loop_latest(loop)) control->h = fmax(control->h, intended);     /* as if it had not been cut */
+    if (loop->stepper->t == zd_step_loop_latest(loop) || loop->switching.is_cut) control->h = fmax(control->h, intended);     /* as if it had not been cut */
     if (integrator->limit_step) control->h = integrator->limit_step(loop->stepper->memory, control->h);
     zd_step_histogram_step(&control->histogram, loop->stepper->t);
     return status;
@@ -208,8 +210,10 @@ static int repeats(zd_step_loop *loop, int *status)
 {
     zd_control *control = &loop->control;
     const double h = control->bounded;
-    if (!*status && zd_control_accepts(control)) {
-        *status = accept(loop);
+    const int is_accepted = !*status && zd_control_accepts(control);
+    if (loop->switching.count && zd_switching_repeats(loop, status)) return 1;
+    if (is_accepted) {
+        if (!*status) *status = accept(loop);
         return 0;
     }
     if (is_final(loop, *status)) return 0;

@@ -51,7 +51,7 @@ static void add_changes(zd_collapse *self, const zd_point *point, const double *
 int zd_collapse_count(zd_collapse *self, const zd_stepper *stepper, double h, const double *scale)
 {
     const zd_point *point = stepper->motion->point;
-    if (is_far(stepper, scale)) return ZD_DONE;
+    if (scale && is_far(stepper, scale)) return ZD_DONE;
     if (!self->count) {
         self->t = stepper->last.t;
         zd_clear(point->system->nv, self->change);

@@ -3,6 +3,7 @@
 
 #include <stdint.h>
 
+#include "../linalg/bracket.h"
 #include "../paths/path.h"
 #include "../workspace.h"
 
@@ -41,7 +42,7 @@ typedef struct zd_collapse {
 zd_collapse zd_collapse_create(zd_arena *arena, int nv);
 /* `most`: settings->max_steps */
 void zd_collapse_begin(zd_collapse *self, int64_t most);
-/* Counts the step of size h just made, whose error scale is `scale` (size,); ZD_COLLAPSED at the last that is allowed at one place. */
+/* Counts the step of size h just made, whose error scale is `scale` (size,), NULL if it ended at a jump; ZD_COLLAPSED at the last that is allowed at one place. */
 int zd_collapse_count(zd_collapse *self, const zd_stepper *stepper, double h, const double *scale);
 int zd_collapse_velocity(const zd_collapse *self, int nv);      /* index of the velocity whose rate changed most */
 
@@ -81,6 +82,23 @@ typedef struct zd_control { /* control of adaptive steps */
 /* True if the error estimate and the change of coordinates in the last attempt are small enough. */
 static inline int zd_control_accepts(const zd_control *control) { return control->norm <= 1 && control->move <= 1; }
 
+/* Comparisons at which forces jump, as the present step has them. */
+
+typedef struct zd_switching {
+    int count;
+    double *side;           /* (count,) sign that a difference is taken to have, see zd_system.switches */
+    double *before, *now;   /* (count,) differences at the start and the end of the attempt */
+    double t_before;        /* s: time of the first */
+    zd_bracket bracket;     /* s: the instant that is sought */
+    double *largest;        /* (count,) the largest |difference| at samples; of steps that are repeated */
+    double *at_a;           /* (count,) differences at its first end */
+    int sought;             /* its switch; -1: none */
+    int holds;              /* true if a side is not zero at its place */
+    double h;               /* s: size of the step in which it was found */
+    int is_released;        /* true if the step has failed with switches held */
+    int is_cut;             /* true if the step ended at a change */
+} zd_switching;
+
 typedef struct zd_step_loop zd_step_loop;
 
 /* Sizes of steps: fixed.c, adaptive.c. NULL: nothing is done. */
@@ -112,6 +130,7 @@ struct zd_step_loop {
     zd_state undivided;     /* start of a step that is repeated in parts; of fixed steps only */
     int parts, part;        /* number of these parts, 0: the step is not divided; the current one, from 1 */
     zd_control control;
+    zd_switching switching; /* of adaptive steps */
 };
 
 static inline int zd_is_adaptive(const zd_step_loop *loop) { return loop->sizes == &zd_adaptive_sizes; }
@@ -147,6 +166,19 @@ void zd_adaptive_set_scale(zd_step_loop *loop);
 int zd_pass_break(zd_step_loop *loop);
 /* Recomputes what is known at the point, after a change of what is not its state: of time by rounding, of inputs. */
 int zd_renew(zd_step_loop *loop);
+
+zd_switching zd_switching_create(zd_arena *arena, const zd_motion *motion);
+/* Before the attempts at an adaptive step. */
+int zd_switching_begin(zd_step_loop *loop);
+/* After an attempt with *status: true if another follows it, of size control.h, since a switch changes in it. */
+int zd_switching_repeats(zd_step_loop *loop, int *status);
+/* For steps that are repeated: reads the differences at a state. Holds the switches that change where a step between the last two states
+ * begins or ends, as between them; true if there are any. Takes the other sides, as this may err where a switch changes at both ends. */
+void zd_switching_compare(zd_step_loop *loop, double t, const double *p, const double *v);
+int zd_switching_hold_between(zd_step_loop *loop);
+void zd_switching_turn(zd_step_loop *loop);
+/* Lets the comparisons decide. */
+void zd_switching_release(zd_step_loop *loop);
 
 /* Passage through a bifurcation within a step. */
 

@@ -32,7 +32,7 @@
 #include "terms.h"
 
 /* Changes with any declaration here and in these headers that compiled code depends on. */
-enum { ZD_INTERFACE_VERSION = 8 };
+enum { ZD_INTERFACE_VERSION = 9 };
 
 /* ---- measures, inputs, groups ---- */
 
@@ -144,6 +144,15 @@ typedef struct zd_breaks {
     const zd_break_group *group;    /* (groups,) */
 } zd_breaks;
 
+/* Comparisons at which user functions jump: adaptive steps end where one changes. */
+typedef struct zd_switches {
+    int count;
+    double *const *place;           /* (count,) number in the data of the system, of this run: 0: the comparison decides; otherwise the
+                                     * difference of its sides is taken to have this sign */
+    /* value (count,) <- differences of their sides. `scratch` is that of zd_system.evaluate(). */
+    void (*evaluate)(const void *data, double t, const double *p, const double *v, double *value, double *scratch);
+} zd_switches;
+
 /* ---- a system; optional members that are not provided are NULL ---- */
 
 typedef struct zd_system {
@@ -194,6 +203,7 @@ typedef struct zd_system {
      * beyond, in trial stages. `scratch` is that of evaluate(). Returns as evaluate() does. NULL: they are defined wherever it succeeds. */
     int (*check_domain)(const void *data, double rtol, double atol, double t, const double *p, const double *v, double *scratch);
     const zd_breaks *breaks;        /* times at which user functions jump; NULL: none are known */
+    const zd_switches *switches;    /* NULL: none are known */
 } zd_system;
 
 /* ---- a kind of system: with parameters, names, a start and a drawing ---- */

@@ -91,6 +91,9 @@ typedef struct zd_law_program {
     const zd_expressions *expressions;      /* NULL: there are none */
     const double *numbers;
     int has_ends;               /* 1 if it may have a table whose ends are an error */
+    const zd_expressions *differences;      /* of the sides of comparisons at which it jumps, with numbers of their own; NULL: none */
+    const double *numbers_of_differences;
+    int first_difference;       /* index of the first among those of all user functions */
 } zd_law_program;
 
 enum { ZD_MAX_LEAST = 200 };       /* largest number of constraints for which reactions are the least ones: work grows with its cube */

@@ -80,6 +80,17 @@ int zd_laws_check(const zd_planned_elements *elements, const zd_readings *at, do
     return status;
 }
 
+void zd_laws_compare(const zd_planned_elements *elements, const zd_readings *at, double t, double *difference)
+{
+    for (const zd_generalized_force *force = elements->force; force < elements->force + elements->forces; force++) {
+        const zd_law_program *program = force->kind == ZD_FORCE_LAW ? elements->program + force->law : NULL;
+        if (!program || !program->differences) continue;
+        read_terms(elements, at, force->first, force->terms);
+        zd_expressions_evaluate(program->differences, program->numbers_of_differences, t, at->x, at->xdot,
+                                difference + program->first_difference);
+    }
+}
+
 /* Without a law: sum of factors x - constant - slope t; of a nonholonomic one with xdot in place of x. */
 static zd_combined combine_linearly(const zd_planned_elements *elements, const zd_relation *row, double t)
 {

@@ -68,16 +68,30 @@ int OF(read)(const void *data, int law, double t, const double *p, const double 
     return zd_measures_read(&measuring, law, &(zd_measured_state){t, p, v, NULL, NULL, 0, NULL}, r, is_same_state, u);
 }
 
+static zd_readings readings_at(const MECHANISM *self, const double *p, const double *v, double *scratch, OF(frame) *frame)
+{
+    OF(frame_of)(self, scratch, frame);
+    const zd_readings readings = OF(frame_readings)(self, frame);
+    place(self, frame, p);
+    move(self, frame, v);
+    return readings;
+}
+
 int OF(check_domain)(const void *data, double rtol, double atol, double t, const double *p, const double *v, double *scratch)
 {
     const MECHANISM *self = data;
     if (!zd_laws_check(&self->elements, NULL, rtol, atol, t)) return ZD_DONE;
     OF(frame) frame;
-    OF(frame_of)(self, scratch, &frame);
-    const zd_readings readings = OF(frame_readings)(self, &frame);
-    place(self, &frame, p);
-    move(self, &frame, v);
+    const zd_readings readings = readings_at(self, p, v, scratch, &frame);
     return zd_laws_check(&self->elements, &readings, rtol, atol, t);
+}
+
+void OF(compare)(const void *data, double t, const double *p, const double *v, double *value, double *scratch)
+{
+    const MECHANISM *self = data;
+    OF(frame) frame;
+    const zd_readings readings = readings_at(self, p, v, scratch, &frame);
+    zd_laws_compare(&self->elements, &readings, t, value);
 }
 
 zd_measures OF(measures)(const MECHANISM *self, zd_measure *measure)
@@ -92,10 +106,7 @@ void OF(components)(const void *mechanism, const double *p, const double *v, int
 {
     const MECHANISM *self = mechanism;
     OF(frame) frame;
-    OF(frame_of)(self, scratch, &frame);
-    const zd_readings readings = OF(frame_readings)(self, &frame);
-    place(self, &frame, p);
-    move(self, &frame, v);
+    const zd_readings readings = readings_at(self, p, v, scratch, &frame);
     for (int i = 0; i < count; i++, row += 2 * VELOCITIES, at += 2) {
         const zd_output_spec *measure = self->elements.output + which[2 * i];
         const int index = measure->index + which[2 * i + 1];

@@ -103,6 +103,8 @@ int zd_force_read(const zd_planned_elements *elements, const zd_readings *at, in
 int zd_law_evaluate(const zd_planned_elements *elements, const zd_readings *at, int law, int count, const double *x, double t, double *value);
 /* zd_system.check_domain(), for all that has tables with ends. at NULL: ZD_DONE if these are tables of t, within their ends. */
 int zd_laws_check(const zd_planned_elements *elements, const zd_readings *at, double rtol, double atol, double t);
+/* zd_switches.evaluate() */
+void zd_laws_compare(const zd_planned_elements *elements, const zd_readings *at, double t, double *difference);
 int zd_forces_power(const zd_planned_elements *elements, const zd_readings *at, double t, double *power);     /* sum over all, for (28) */
 /* Potential energy: V of gravity plus the energy stored in springs. */
 double zd_springs_potential(const zd_planned_elements *elements, const zd_readings *at, double V);

@@ -68,6 +68,8 @@ int zd_plane_data_size(void);
 /* Copies the system's data into `data`, with the run's own owner of user functions, user functions as expressions (NULL: none), and inputs of
  * generated functions. The pointer to these inputs is the first member of the data. */
 void zd_plane_with(const zd_plane *mechanism, void *owner, const zd_law_program *program, const double *numbers, void *data);
+/* zd_switches.evaluate() */
+void zd_plane_compare(const void *data, double t, const double *p, const double *v, double *value, double *scratch);
 
 /* Planned form of all joints and elements: links of a tree, rows, and generalized forces along marker quantities. Bodies are numbered as in
  * the tree, parents before children. */

@@ -72,6 +72,8 @@ void zd_space_components(const void *mechanism, const double *p, const double *v
  * (NULL: none), and inputs of generated functions. The pointer to these inputs is the first member of the data. */
 int zd_space_data_size(void);
 void zd_space_with(const zd_space *space, void *owner, const zd_law_program *program, const double *numbers, void *data);
+/* zd_switches.evaluate() */
+void zd_space_compare(const void *data, double t, const double *p, const double *v, double *value, double *scratch);
 
 /* Planned form of all joints outside the tree and of all elements: rows, and generalized forces along marker quantities. */
 typedef struct zd_space_plan {

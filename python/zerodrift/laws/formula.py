@@ -35,7 +35,7 @@ def operands(kind: str, content: Any) -> tuple[Any, ...]:
     return ()
 
 
-def _with(kind: str, content: Any, of: Callable[[Any], Any]) -> Any:
+def with_operands(kind: str, content: Any, of: Callable[[Any], Any]) -> Any:
     """Content with other operands."""
     if kind in ("sum", "product"):
         return tuple((of(each), number) for each, number in content)
@@ -65,7 +65,7 @@ def operations(roots: Iterable[Node]) -> tuple[list[Operation], list[int]]:
     ordered = sorted(found, key=lambda node: node.number)
     numbers = {node: i for i, node in enumerate(ordered)}
     return [(node.kind, node.content[1] if node.kind == "leaf" else node.content[0] if node.kind == "number" else
-             _named(_with(node.kind, node.content, numbers.__getitem__), node.kind)) for node in ordered], [
+             _named(with_operands(node.kind, node.content, numbers.__getitem__), node.kind)) for node in ordered], [
                  numbers[root] for root in roots]
 
 
@@ -119,7 +119,7 @@ class Formula:
         """Node in the graph of equations, from the nodes of its names."""
         graph, nodes = equations.graph, list[Any]()
         for kind, content in self.operations:
-            given = _with(kind, content, nodes.__getitem__)
+            given = with_operands(kind, content, nodes.__getitem__)
             match kind:
                 case "leaf":
                     node = known[content] if isinstance(content, str) else equations.spline(content)

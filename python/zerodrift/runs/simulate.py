@@ -60,7 +60,8 @@ def simulate(
         As p0, a result of `equilibrium` is accepted, too.
     step : float, optional
         Size of fixed steps in s. If the span is not a whole number of steps, the last one is shorter. Without it, steps are
-        adaptive: the integrator chooses them by its error estimate with `rtol` and `atol`, and they end where laws of t jump.
+        adaptive: the integrator chooses them by its error estimate with `rtol` and `atol`, and they end where laws jump: at
+        times, and where a comparison of the motion changes.
     t_eval : array_like (k,), optional
         Output times in s, increasing. Left out: the times of the steps; adaptive steps are long, and maxima of forces may lie
         between them. With adaptive steps, values at output times are from the method's dense output where it has one, otherwise
@@ -93,7 +94,8 @@ def simulate(
         notice; set `max_move` to a third of its width or less.
     max_steps : int or None
         Adaptive steps: number of steps after which the run fails, with a message on the times at which most were taken. It fails
-        after 50 already that get nowhere, as where friction is the sign of a speed: `StepFailed` with the code "step-collapse".
+        after 50 already that get nowhere, and where a law jumps back as soon as it has jumped, as friction that is the sign of a
+        speed does at rest: `StepFailed` with the code "step-collapse".
         None: unlimited. Fixed steps are not limited.
     formulation : str or settings, optional
         Equations of motion to solve: a name in `formulations()`, or ``formulations()[name].settings(...)``. By default "schur";

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import functools
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import MappingProxyType
@@ -108,16 +109,22 @@ class Law:
         """Take these of its measures as reactions."""
         among = frozenset(reactions)
         self.reactions = {name: measure for name, measure in self._bound.items() if measure in among}
-        self.measures = tuple(self._bound[name] for name in self._picked)
+        self.measures = tuple(self._bound[name] for name in self.picked)
+
+    def of_formula(self, formula: Formula, more: Iterable[str] = ()) -> Law:
+        """The same with another formula, which has more parameters."""
+        other = copy.copy(self)
+        other.formula, other._names = formula, [*self._names, *more]
+        return other
 
     @property
-    def _picked(self) -> list[str]:
+    def picked(self) -> list[str]:
         """Own names of its measures without reactions."""
         return [name for name in self._bound if name not in self.reactions]
 
     def _known(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> dict[str, Any]:
         """All its arguments by their own names."""
-        return {**parameters, "t": t, **dict(zip((*self._picked, *self.reactions), x, strict=True))}
+        return {**parameters, "t": t, **dict(zip((*self.picked, *self.reactions), x, strict=True))}
 
     def value(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> Any:
         """Value at a time and values of its measures; with derivatives (`autodiff.Jet`) if these have them."""
@@ -164,7 +171,7 @@ class Law:
     @property
     def is_plain(self) -> bool:
         """True if it depends on no measure, or is a polynomial of measures and of sines and cosines of them."""
-        return not self.measures or (self.formula is not None and self.formula.is_plain(set(self._picked)))
+        return not self.measures or (self.formula is not None and self.formula.is_plain(set(self.picked)))
 
     @property
     def names(self) -> tuple[str, ...]:

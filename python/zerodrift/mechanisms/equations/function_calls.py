@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from ...errors import WrongValue
-from ...laws import breaks
+from ...laws import breaks, switches
+from ...laws.formula import Formula
 from ...systems.autodiff import Jet
 from ..elements.user_functions import InputLaw, Law
 from . import function_programs
@@ -25,13 +26,30 @@ class Call:
     def __init__(self, law: Law | InputLaw, picks: Sequence[tuple[int, bool]], parameters: Mapping[str, float]) -> None:
         self.law, self.picks, self.parameters = law, tuple(picks), parameters
 
+    @property
+    def numbers(self) -> Mapping[str, float]:
+        """Parameters that it is computed from, or the numbers of an input, by name."""
+        law, own = self.law, self.parameters
+        return law.numbers if isinstance(law, InputLaw) else {name: own[name] for name in law.names if name in own}
+
     def _numbers(self, t: float, x: np.ndarray, xdot: np.ndarray) -> float:
         values = [float((xdot if is_rate else x)[place]) for place, is_rate in self.picks]
         return self.law.number(t, values, self.parameters)
 
+    def node(self, law: Law | InputLaw, equations: Any, values: Sequence[Any], rates: Sequence[Any]) -> Any:
+        """Node of a user function of its measures."""
+        return law.written(equations, [(rates if is_rate else values)[place] for place, is_rate in self.picks])
+
     def written(self, equations: Any, values: Sequence[Any], rates: Sequence[Any]) -> Any:
         """Node of the residual or force; `values` and `rates` are those of its marker quantities."""
-        return self.law.written(equations, [(rates if is_rate else values)[place] for place, is_rate in self.picks])
+        return self.node(self.law, equations, values, rates)
+
+    def held(self) -> tuple[Call, Mapping[str, Formula]]:
+        """The same with a number for each switch, 0 where its comparison decides, and the differences by the names of these.
+
+        Of forces only: constraints do not jump.
+        """
+        return self, {}
 
     def said(self, leaves: Any, node: Any) -> Sequence[Any]:
         """Node of what the core reads, from the node of the residual or force; here for a holonomic constraint."""
@@ -55,6 +73,17 @@ class ForceLaw(Call):
     def said(self, leaves: Any, node: Any) -> Sequence[Any]:
         return (node,)
 
+    def held(self) -> tuple[Call, Mapping[str, Formula]]:
+        law = self.law
+        if isinstance(law, InputLaw) or law.formula is None:
+            return self, {}
+        formula, differences = switches.held(law.formula, frozenset(law.picked), tuple(self.numbers.items()))
+        if not differences:
+            return self, {}
+        sides = dict.fromkeys(differences, 0.0)
+        row = type(self)(law.of_formula(formula, sides), self.picks, {**self.parameters, **sides}, self.sign)
+        return row, differences
+
 
 class Stiffness(ForceLaw):
     """Generalized force: a stiffness times the first of its marker quantities."""
@@ -68,6 +97,8 @@ class Stiffness(ForceLaw):
 
 class Value(ForceLaw):
     """Measure of one's own, which acts on nothing."""
+
+    held = Call.held
 
 
 class Motion(Call):
@@ -139,6 +170,7 @@ class Laws:
     def __init__(self) -> None:
         self.rows: list[Any] = []       # of Call
         self._programs: list[Any] = []
+        self.differences: dict[int, function_programs.Differences] = {}     # by user function; known with the programs
         self._breaks: dict[Any, list[breaks.Break]] = {}        # by span
 
     def add(self, row: Call) -> int:
@@ -155,8 +187,16 @@ class Laws:
     def programs(self, sizes: Mapping[int, tuple[int, int]]) -> list[Any]:
         """Result of `function_programs.program` for each user function; `sizes` has the number of its marker quantities."""
         if len(self._programs) < len(sizes):
-            self._programs = [function_programs.program(row, sizes[i][0]) for i, row in enumerate(self.rows[:len(sizes)])]
+            held = [row.held() for row in self.rows[:len(sizes)]]
+            self._programs = [function_programs.program(row, sizes[i][0]) for i, (row, _) in enumerate(held)]
+            self.differences = {i: function_programs.differences(row, sizes[i][0], found)
+                                for i, (row, found) in enumerate(held) if found and self._programs[i]}
         return self._programs[:len(sizes)]
+
+    @property
+    def jump(self) -> bool:
+        """True if one jumps where a comparison of the motion changes."""
+        return any(row.held()[1] for row in self.rows)
 
     @property
     def tables(self) -> list[Any]:

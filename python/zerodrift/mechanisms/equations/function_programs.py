@@ -5,12 +5,13 @@ Parameters are arguments: functions that differ in these alone are written once.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..._private.gateway.compiled import programs
+from ...laws.formula import Formula
 from ...symbolics.elimination.steps import Unwritten
 from ...symbolics.emit import program_writer
 from ...symbolics.graph.law_terms import Leaves
@@ -50,8 +51,7 @@ def program_of(row: Any, k: int) -> Written:
     Unwritten, TypeError, ValueError
         If it has a function that the core does not know.
     """
-    law = row.law
-    own = law.numbers if law.input is not None else {name: row.parameters[name] for name in law.names if name in row.parameters}
+    law, own = row.law, row.numbers
     key = None if law.formula is None else (type(row), row.sign, law.formula, law.names, row.picks, tuple(own), k)
     equations, numbers = _Equations(list(own), k), [float(each) for each in own.values()]
     found = _programs.get(key)
@@ -65,6 +65,25 @@ def program_of(row: Any, k: int) -> Written:
         if key is not None:
             _programs[key] = found
     return Written(found, [*numbers, *found.literals], dict(enumerate(splines, first)))
+
+
+class Differences(NamedTuple):
+    """Differences of the sides of comparisons at which a user function jumps."""
+
+    program: Program
+    places: list[int]           # among the numbers of the user function, of those that hold the comparisons
+
+
+def differences(row: Any, k: int, formulas: Mapping[str, Formula]) -> Differences:
+    """Differences in a user function of k marker quantities, by the names of the numbers that hold them."""
+    own = row.numbers
+    equations = _Equations([*own], k)
+    lowering = Lowering(equations.graph)
+    nodes = [lowering.lower(row.node(row.law.of_formula(each), equations, equations.leaves.x, equations.leaves.xdot))
+             for each in formulas.values()]
+    found = program_writer.expressions(lowering, nodes, len(own), k, k)
+    return Differences((programs.expressions(found), np.array([*map(float, own.values()), *found.literals])),
+                       [[*own].index(name) for name in formulas])
 
 
 class _Equations:

@@ -89,8 +89,8 @@ class Written:
                  *, compiles: bool = True, has_inputs: bool = False) -> None:
         self._interpreted, self._sizes = core, (core.nq, core.nv, core.mh, core.mn)
         is_in_space = isinstance(core, SpaceCore)
-        # Matrices of compiled mechanisms with tables are interpreted: then the end of a table is said.
-        self._has_terms = compiles and not laws.tables and (not is_in_space or core.packing is None)
+        # Matrices of compiled mechanisms are interpreted where user functions have tables, whose ends are said, or jump.
+        self._has_terms = compiles and not laws.tables and not laws.jump and (not is_in_space or core.packing is None)
         reader = Plain()
         number = nodes.Numbering(reader.graph)
         room, planned = (space_nodes, space_plans.plan_of) if is_in_space else (nodes, plan_of)

@@ -15,7 +15,7 @@ from ..base import MESSAGE_SIZE, text
 from ..systems import CoreSystem
 from .assembly import displaced, displacement
 from .element_tables import Row, law_sizes, rows_of, written_elements
-from .law_owner import Law, LawOwner, breaks_of, table_of_programs
+from .law_owner import Law, LawOwner, breaks_of, switches_of, table_of_programs
 
 
 class MechanismCore(CoreSystem):
@@ -129,7 +129,8 @@ class MechanismCore(CoreSystem):
         if handle and not (programs[1] and any(row.has_ends for row in programs[0])):
             mine.c.check_domain = ffi.NULL
         mine.c.breaks, kept = breaks_of(self._law)
-        mine.c.data, mine._data, mine._numbers = data, (*self._data, handle, *programs, numbers, kept, data), numbers
+        mine.c.switches, keep = switches_of(self._law, programs, ffi.addressof(lib, f"zd_{self.dimension}_compare"))
+        mine.c.data, mine._data, mine._numbers = data, (*self._data, handle, *programs, numbers, kept, keep, data), numbers
         return mine
 
     def meet_breaks(self, t0: float, t1: float) -> None:

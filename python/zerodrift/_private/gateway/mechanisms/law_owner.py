@@ -74,7 +74,7 @@ def table_of_programs(law: Law, sizes: dict[int, tuple[int, int]]) -> Any:
         return ffi.NULL, None
     arrays = [each and each[1].copy() for each in found]      # inputs are written into those of one run
     kept = [array if array is None else doubles(array, array.size) for array in arrays]
-    rows = [(each[0][0], numbers, lib.zd_expressions_have_ends(each[0][0], numbers)) if each else (ffi.NULL, ffi.NULL, 0)
+    rows = [(each[0][0], numbers, lib.zd_expressions_have_ends(each[0][0], numbers)) if each else ()
             for each, numbers in zip(found, kept, strict=True)]
     return ffi.new("zd_law_program[]", rows), (kept, found)
 
@@ -89,6 +89,23 @@ def breaks_of(law: Any, span: tuple[float, float] | None = None) -> Any:
     groups = ffi.new("zd_break_group[]", rows)
     made = ffi.new("zd_breaks *", (len(times), groups))
     return made, (made, groups, times)
+
+
+def switches_of(law: Any, programs: tuple[Any, Any], evaluate: Any) -> tuple[Any, Any]:
+    """The core's comparisons at which user functions jump, NULL if there are none, and the memory to keep with it."""
+    table, kept = programs
+    found = law.differences if kept and hasattr(law, "differences") else {}
+    if not found:
+        return ffi.NULL, None
+    places, memory = [], []
+    for i, each in found.items():
+        (expressions, _), numbers = each.program
+        memory.append(doubles(numbers, numbers.size))
+        table[i].differences, table[i].numbers_of_differences, table[i].first_difference = expressions, memory[-1], len(places)
+        places += [kept[0][i] + place for place in each.places]
+    place = ffi.new("double *[]", places)
+    made = ffi.new("zd_switches *", (len(places), place, evaluate))
+    return made, (made, memory, place)
 
 
 @ffi.def_extern(error=lib.ZD_CALLBACK)

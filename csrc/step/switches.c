@@ -1,0 +1,259 @@
+/* Switches: comparisons of the motion at which a force jumps. An attempt within which some of them change is made again with these as they are
+ * at its start, so that all its stages are on one side; the instant at which the first of them changes is located by attempts of other
+ * sizes, and the step ends there. The next step has that comparison as it is after the change, however the difference of its sides is
+ * rounded at its start. In all other steps the comparisons decide.
+ *
+ * A comparison that changes back at the instant at which it changed is met from both sides, as by dry friction at rest.
+ */
+#include "step_loop.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "../linalg/small.h"
+#include "../step_limits.h"
+
+static const double SHARE_OF_STEP = 0x1p-10;    /* accuracy of an instant relative to the step, in units of rtol */
+static const double NEAR = 0x1p6;              /* difference at a change relative to the largest one, likewise */
+enum { HELD = 1, CHANGED = 2 };     /* |side|: the sign at the start of the step; that after a change at its start */
+
+zd_switching zd_switching_create(zd_arena *arena, const zd_motion *motion)
+{
+    const zd_switches *switches = motion->system.switches;
+    const int count = switches ? switches->count : 0;
+    return (zd_switching){
+        .count = count,
+        .side = zd_arena_doubles(arena, count),
+        .before = zd_arena_doubles(arena, count),
+        .now = zd_arena_doubles(arena, count),
+        .at_a = zd_arena_doubles(arena, count),
+        .largest = zd_arena_doubles(arena, count),
+        .sought = -1, .t_before = NAN,
+    };
+}
+
+static void evaluate(const zd_step_loop *loop, double t, const double *p, const double *v, double *value)
+{
+    const zd_system *system = &loop->motion->system;
+    system->switches->evaluate(system->data, t, p, v, value, loop->motion->point->terms.scratch);
+}
+
+static void evaluate_now(const zd_step_loop *loop, double *value)
+{
+    evaluate(loop, loop->stepper->t, loop->motion->point->p, loop->motion->point->v, value);
+}
+
+/* True if values have the other sign than a switch is held at. */
+static int has_passed(const zd_switching *self, int i, const double *value)
+{
+    return self->side[i] > 0 ? value[i] < 0 : self->side[i] < 0 && value[i] > 0;
+}
+
+/* Writes the sides to their places; true if one is new there. */
+static int write_sides(zd_step_loop *loop)
+{
+    const zd_switches *switches = loop->motion->system.switches;
+    int is_new = 0;
+    loop->switching.holds = 0;
+    for (int i = 0; i < switches->count; i++) {
+        is_new |= *switches->place[i] != loop->switching.side[i];
+        *switches->place[i] = loop->switching.side[i];
+        loop->switching.holds |= loop->switching.side[i] != 0;
+    }
+    return is_new;
+}
+
+void zd_switching_release(zd_step_loop *loop)
+{
+    loop->switching.sought = -1;
+    loop->switching.t_before = NAN;
+    zd_clear(loop->switching.count, loop->switching.side);
+}
+
+int zd_switching_begin(zd_step_loop *loop)
+{
+    zd_switching *self = &loop->switching;
+    self->sought = -1;
+    self->is_released = self->is_cut = 0;
+    int status = write_sides(loop) ? zd_renew(loop) : ZD_DONE;
+    if (!status && self->t_before != loop->stepper->t) evaluate_now(loop, self->before);
+    if (status || !self->holds) return status;
+    return zd_closed_form_leave(loop->motion) ? zd_safeguards_begin(loop->safeguards, loop->step) : ZD_DONE;
+}
+
+void zd_switching_compare(zd_step_loop *loop, double t, const double *p, const double *v)
+{
+    zd_switching *self = &loop->switching;
+    zd_copy_all(self->count, self->now, self->before);
+    evaluate(loop, t, p, v, self->now);
+    for (int i = 0; i < self->count; i++) self->largest[i] = fmax(self->largest[i], fabs(self->now[i]));
+}
+
+int zd_switching_hold_between(zd_step_loop *loop)
+{
+    zd_switching *self = &loop->switching;
+    for (int i = 0; i < self->count; i++) {
+        const double a = self->before[i], b = self->now[i], larger = fabs(a) > fabs(b) ? a : b;
+        self->side[i] = fmin(fabs(a), fabs(b)) <= NEAR * loop->settings->rtol * self->largest[i] ? copysign(HELD, larger) : 0;
+    }
+    write_sides(loop);
+    return self->holds;
+}
+
+void zd_switching_turn(zd_step_loop *loop)
+{
+    for (int i = 0; i < loop->switching.count; i++) loop->switching.side[i] = -loop->switching.side[i];
+    write_sides(loop);
+}
+
+static int return_to_start(zd_step_loop *loop)
+{
+    zd_stepper *stepper = loop->stepper;
+    if (stepper->integrator->forget) stepper->integrator->forget(stepper->memory);
+    const int status = zd_stepper_return(stepper);
+    return status ? status : zd_safeguards_begin(loop->safeguards, loop->step);
+}
+
+/* Holds the switches that change within an attempt, for another; false if there are none. */
+static int hold(zd_step_loop *loop, int *status)
+{
+    zd_switching *self = &loop->switching;
+    for (int i = 0; i < self->count; i++)
+        if (self->before[i] < 0 ? self->now[i] > 0 : self->before[i] > 0 && self->now[i] < 0) self->side[i] = copysign(HELD, self->before[i]);
+    if (!write_sides(loop)) return 0;
+    loop->motion->statistics.rejected++;
+    zd_closed_form_leave_step(loop->motion);
+    *status = return_to_start(loop);
+    return !*status;
+}
+
+/* Begins the search for the change of a switch between the start of the step, and t with these values. */
+static void seek(zd_step_loop *loop, int i, double t, const double *value)
+{
+    zd_switching *self = &loop->switching;
+    const double t0 = loop->stepper->last.t, rounding = ZD_TIME_RESOLUTION * fmax(fabs(t0), fabs(t));
+    const double at_start = copysign(fmax(fabs(self->before[i]), DBL_MIN), self->side[i]);
+    self->sought = i;
+    self->bracket = zd_bracket_of(t0, t, at_start, value[i], fmax(rounding, SHARE_OF_STEP * loop->settings->rtol * (t - t0)));
+    zd_copy_all(self->count, self->before, self->at_a);
+}
+
+/* The switch that passes first by linear interpolation; -1: none. */
+static int first_of(const zd_switching *self)
+{
+    int first = -1;
+    double smallest = INFINITY;
+    for (int i = 0; i < self->count; i++) {
+        const double share = self->before[i] / (self->before[i] - self->now[i]);
+        if (!has_passed(self, i, self->now) || !(share < smallest || first < 0)) continue;
+        first = i;
+        smallest = share;
+    }
+    return first;
+}
+
+/* A switch that has passed before the one that was located; -1: none. */
+static int earlier_of(const zd_switching *self)
+{
+    for (int i = 0; i < self->count; i++)
+        if (i != self->sought && has_passed(self, i, self->at_a)) return i;
+    return -1;
+}
+
+/* ZD_COLLAPSED at a jump that is met from both sides, with the velocity whose rate jumps most. */
+static int meet_from_both_sides(zd_step_loop *loop)
+{
+    zd_motion *motion = loop->motion;
+    zd_collapse *collapse = &loop->control.collapse;
+    double *side = &loop->switching.side[loop->switching.sought];
+    int status = zd_motion_accelerate(motion);
+    if (status) return status;
+    zd_copy_all(motion->system.nv, motion->point->vdot, collapse->rate);
+    *side = -*side;
+    write_sides(loop);
+    motion->point->known &= motion->point->constant;
+    status = zd_motion_accelerate(motion);
+    if (status) return status;
+    for (int i = 0; i < motion->system.nv; i++)
+        collapse->change[i] = fabs(motion->point->vdot[i] - collapse->rate[i]) * motion->point->inverse_unit[i];
+    collapse->count = 0;
+    motion->statistics.part = zd_collapse_velocity(collapse, motion->system.nv);
+    return ZD_COLLAPSED;
+}
+
+/* Ends the step at the change that was located: the next one has the other sides. */
+static int change(zd_step_loop *loop)
+{
+    zd_switching *self = &loop->switching;
+    const int is_met_again = fabs(self->side[self->sought]) == CHANGED
+        && self->bracket.b - loop->stepper->last.t <= 2 * self->bracket.resolution;
+    if (is_met_again && loop->control.collapse.share > 0) return meet_from_both_sides(loop);
+    for (int i = 0; i < self->count; i++)
+        if (i == self->sought || has_passed(self, i, self->now)) self->side[i] = copysign(CHANGED, -self->side[i]);
+    if (is_met_again) zd_switching_release(loop);
+    self->sought = -1;
+    self->is_cut = 1;
+    loop->control.h = self->h;
+    loop->control.stiffness = (zd_stiffness){0};
+    return ZD_DONE;
+}
+
+/* After an accepted attempt with switches held; true if another follows, of size control.h. */
+static int goes_on(zd_step_loop *loop, int *status)
+{
+    zd_switching *self = &loop->switching;
+    zd_bracket *it = &self->bracket;
+    const double t = loop->stepper->t;
+    if (self->sought < 0) {
+        const int first = first_of(self);
+        if (first < 0) {
+            zd_switching_release(loop);
+            return 0;
+        }
+        self->h = loop->control.bounded;
+        seek(loop, first, t, self->now);
+    } else {
+        if (!has_passed(self, self->sought, self->now)) zd_copy_all(self->count, self->now, self->at_a);
+        zd_bracket_narrow(it, t, self->now[self->sought]);
+    }
+    int is_located = it->b - it->a <= it->resolution;
+    const int earlier = is_located ? earlier_of(self) : -1;
+    if (earlier >= 0) {
+        seek(loop, earlier, it->a, self->at_a);
+        is_located = 0;
+    }
+    if (is_located && (has_passed(self, self->sought, self->now) || t >= it->b)) {
+        *status = change(loop);
+        return 0;
+    }
+    loop->control.h = (is_located ? it->b : zd_bracket_choose(it)) - loop->stepper->last.t;
+    *status = return_to_start(loop);
+    return !*status;
+}
+
+static void keep_differences(zd_step_loop *loop)
+{
+    loop->switching.t_before = loop->stepper->t;
+    zd_copy_all(loop->switching.count, loop->switching.now, loop->switching.before);
+}
+
+int zd_switching_repeats(zd_step_loop *loop, int *status)
+{
+    zd_switching *self = &loop->switching;
+    const int is_accepted = !*status && zd_control_accepts(&loop->control), is_held = self->holds;
+    if (*status) {      /* which may be beyond the domain of the side that is held */
+        zd_switching_release(loop);
+        write_sides(loop);
+        self->is_released = 1;
+        evaluate(loop, loop->stepper->last.t, loop->stepper->last.p, loop->stepper->last.v, self->before);
+        return 0;
+    }
+    if (!is_accepted) {
+        self->sought = -1;
+        if (is_held || zd_path_unpack(loop->stepper, loop->stepper->last.t + loop->control.bounded)) return 0;
+    }
+    evaluate_now(loop, self->now);
+    if (is_held ? goes_on(loop, status) : !self->is_released && hold(loop, status)) return 1;
+    if (is_accepted && !*status) keep_differences(loop);
+    return 0;
+}
