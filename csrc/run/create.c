@@ -56,6 +56,14 @@ int zd_closed_form_unit(const zd_system *system, const zd_settings *settings)
     return closed_form ? (int)closed_form->unit : -1;
 }
 
+static void create_sizes(zd_step_loop *loop, zd_arena *arena, double t0)
+{
+    if (zd_is_adaptive(loop)) {
+        loop->control = zd_adaptive_create(arena, loop->stepper, t0);
+        loop->switching = zd_switching_create(arena, loop->motion);
+    } else loop->undivided = zd_state_create(arena, loop->motion);
+}
+
 /* Allocates and initializes a run; `independent` is the system with its independent constraints only. Called twice, see workspace.h: to
  * count bytes, then to assign addresses. */
 static zd_run *create_run(zd_arena *arena, const zd_system *system, const zd_settings *settings, const zd_system *independent)
@@ -88,10 +96,7 @@ static zd_run *create_run(zd_arena *arena, const zd_system *system, const zd_set
         .sizes = settings->steps == ZD_FIXED_STEPS ? &zd_fixed_sizes : &zd_adaptive_sizes,
         .end = settings->t1, .limit = INFINITY, .before_break = INFINITY, .t_begin = settings->t0,
     };
-    if (zd_is_adaptive(&run->loop)) {
-        run->loop.control = zd_adaptive_create(arena, &run->stepper, settings->t0);
-        run->loop.switching = zd_switching_create(arena, motion);
-    } else run->loop.undivided = zd_state_create(arena, motion);
+    create_sizes(&run->loop, arena, settings->t0);
     run->recorder = zd_recorder_create(arena, settings, motion);
     run->output = zd_output_create(arena, settings, &run->loop, &run->recorder);
     run->watch = zd_watch_create(arena, settings->events, &run->output);

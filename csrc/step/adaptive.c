@@ -188,7 +188,8 @@ static int watch_collapse(zd_step_loop *loop)
         return ZD_DONE;
     }
     const int is_cut = loop->switching.is_cut;
-    if ((h != control->h && !is_cut) || !zd_collapse_count(&control->collapse, loop->stepper, h, is_cut ? NULL : control->scale)) return ZD_DONE;
+    const double *scale = is_cut ? NULL : control->scale;
+    if ((h != control->h && !is_cut) || !zd_collapse_count(&control->collapse, loop->stepper, h, scale)) return ZD_DONE;
     loop->motion->statistics.part = zd_collapse_velocity(&control->collapse, loop->motion->system.nv);
     return ZD_COLLAPSED;
 }
@@ -200,7 +201,8 @@ static int accept(zd_step_loop *loop)
     const double h = control->bounded, intended = control->h;
     const int status = watch_collapse(loop);
     control->h = by_move(control, h, h * fmin(control->largest_factor, factor(loop, control->norm)));
-    if (loop->stepper->t == zd_step_loop_latest(loop) || loop->switching.is_cut) control->h = fmax(control->h, intended);     /* as if it had not been cut */
+    if (loop->stepper->t == zd_step_loop_latest(loop) || loop->switching.is_cut)
+        control->h = fmax(control->h, intended);    /* as if it had not been cut */
     if (integrator->limit_step) control->h = integrator->limit_step(loop->stepper->memory, control->h);
     zd_step_histogram_step(&control->histogram, loop->stepper->t);
     return status;

@@ -42,7 +42,8 @@ typedef struct zd_collapse {
 zd_collapse zd_collapse_create(zd_arena *arena, int nv);
 /* `most`: settings->max_steps */
 void zd_collapse_begin(zd_collapse *self, int64_t most);
-/* Counts the step of size h just made, whose error scale is `scale` (size,), NULL if it ended at a jump; ZD_COLLAPSED at the last that is allowed at one place. */
+/* Counts the step of size h just made, whose error scale is `scale` (size,), NULL if it ended at a jump; ZD_COLLAPSED at the last that is
+ * allowed at one place. */
 int zd_collapse_count(zd_collapse *self, const zd_stepper *stepper, double h, const double *scale);
 int zd_collapse_velocity(const zd_collapse *self, int nv);      /* index of the velocity whose rate changed most */
 
@@ -130,7 +131,7 @@ struct zd_step_loop {
     zd_state undivided;     /* start of a step that is repeated in parts; of fixed steps only */
     int parts, part;        /* number of these parts, 0: the step is not divided; the current one, from 1 */
     zd_control control;
-    zd_switching switching; /* of adaptive steps */
+    zd_switching switching; /* adaptive steps */
 };
 
 static inline int zd_is_adaptive(const zd_step_loop *loop) { return loop->sizes == &zd_adaptive_sizes; }
@@ -170,7 +171,7 @@ int zd_renew(zd_step_loop *loop);
 zd_switching zd_switching_create(zd_arena *arena, const zd_motion *motion);
 /* Before the attempts at an adaptive step. */
 int zd_switching_begin(zd_step_loop *loop);
-/* After an attempt with *status: true if another follows it, of size control.h, since a switch changes in it. */
+/* After an attempt with *status: true if another follows it, whose size is set, since a switch changes in it. */
 int zd_switching_repeats(zd_step_loop *loop, int *status);
 /* For steps that are repeated: reads the differences at a state. Holds the switches that change where a step between the last two states
  * begins or ends, as between them; true if there are any. Takes the other sides, as this may err where a switch changes at both ends. */

@@ -1,5 +1,5 @@
-/* Switches: comparisons of the motion at which a force jumps. An attempt within which some of them change is made again with these as they are
- * at its start, so that all its stages are on one side; the instant at which the first of them changes is located by attempts of other
+/* Switches: comparisons of the motion at which a force jumps. An attempt within which some of them change is made again with these as they
+ * are at its start, so that all its stages are on one side; the instant at which the first of them changes is located by attempts of other
  * sizes, and the step ends there. The next step has that comparison as it is after the change, however the difference of its sides is
  * rounded at its start. In all other steps the comparisons decide.
  *
@@ -198,7 +198,7 @@ static int change(zd_step_loop *loop)
     return ZD_DONE;
 }
 
-/* After an accepted attempt with switches held; true if another follows, of size control.h. */
+/* After an accepted attempt with switches held; true if another follows, whose size is set. */
 static int goes_on(zd_step_loop *loop, int *status)
 {
     zd_switching *self = &loop->switching;

@@ -91,8 +91,8 @@ typedef struct zd_law_program {
     const zd_expressions *expressions;      /* NULL: there are none */
     const double *numbers;
     int has_ends;               /* 1 if it may have a table whose ends are an error */
-    const zd_expressions *differences;      /* of the sides of comparisons at which it jumps, with numbers of their own; NULL: none */
-    const double *numbers_of_differences;
+    const zd_expressions *differences;      /* Differences of the sides of comparisons at which it jumps; NULL: none */
+    const double *numbers_of_differences;   /* their own parameters */
     int first_difference;       /* index of the first among those of all user functions */
 } zd_law_program;
 

@@ -12,12 +12,12 @@ from .formula import SIGNS, Evaluation, Formula, Operation, operands, with_opera
 
 CROSSINGS, TRIALS = 24, 96      # of the border of a comparison at which the law is examined; segments on which these are sought
 POINTS = 9          # of a segment, whose largest value is the scale of a jump
-SMALL = 1e-9        # jump that may be rounding, relative to it
+SMALLEST_JUMP = 1e-9        # jump that counts, relative to it
 ORDERED = ("<", "<=", ">", ">=")
 
 
 class Held(NamedTuple):
-    """A formula with a number for each switch: 0 where the comparison decides, else the sign that its difference is taken to have."""
+    """A formula with a number for each switch: 0 where the comparison decides, else the sign that its difference has."""
 
     formula: Formula
     differences: dict[str, Formula]     # of the two sides, by the name of the number
@@ -109,7 +109,7 @@ def _jumps(formula: Formula, comparison: int, moving: list[str], numbers: Mappin
         scale = max((abs(each) for k in range(POINTS) if math.isfinite(each := of(between(k / (POINTS - 1)), last))), default=0.0)
         for share in (low, high):
             values = [of(between(share), last, result) for result in (False, True)]
-            if abs(values[1] - values[0]) > SMALL * max(scale or 1.0, *map(abs, values)):
+            if abs(values[1] - values[0]) > SMALLEST_JUMP * max(scale or 1.0, *map(abs, values)):
                 return True
         if crossings == CROSSINGS:
             break

@@ -97,7 +97,7 @@ def switches_of(law: Any, programs: tuple[Any, Any], evaluate: Any) -> tuple[Any
     found = law.differences if kept and hasattr(law, "differences") else {}
     if not found:
         return ffi.NULL, None
-    places, memory = [], []
+    places, memory = list[Any](), list[Any]()
     for i, each in found.items():
         (expressions, _), numbers = each.program
         memory.append(doubles(numbers, numbers.size))
