@@ -242,6 +242,16 @@ class Kept:
         return self.half * x + self.of_class() * self.missing + (self // x if type(x) in (int, float) else 0.0)
 
 
+@dataclasses.dataclass(order=True)
+class Names:
+    k: float = 2.0
+    curve = (1.0, 3.0)
+
+    @staticmethod
+    def of(x):
+        return x * Names.k
+
+
 class Stateful:
     _seen: typing.ClassVar = []
 
@@ -262,6 +272,9 @@ class Stateful:
     def __call__(self, x):
         return {"class": lambda: self._seen.append(x), "missing": lambda: self.missing, "mod": lambda: self % 2, "eq":
                 lambda: 2.0 if self == 3 else 1.0}[self.method]() and x
+
+
+ONE, TWO = Names(1.0), Names()
 
 
 class Tagged(typing.NamedTuple):
@@ -357,7 +370,8 @@ RECORDED = [
     lambda x: 3.0, lambda x: (x if x > 0 else 0.0) + (x if x > 1 else 0.0), lambda t: np.sin(t),
     lambda x: np.interp(x, TIMES, VALUES) + np.interp(2 * x - 1, CURVE["speed"], CURVE["torque"]) ** 2,
     lambda x: float(x) + float(np.sin(x)) + int(x > 1) + (x, -x)[x > 0], cached, lambda x: next_to(x)(x),
-    Kept(), lambda x: math.sqrt(max(0.0, x)) + np.sqrt(np.maximum(2 * x - 1, 0)) * x + (0.5 * max(0, x) * x) ** 0.5,
+    lambda x: Names.of(x) + Names.curve[1] * (2.0 if ONE < TWO else x), Kept(),
+    lambda x: math.sqrt(max(0.0, x)) + np.sqrt(np.maximum(2 * x - 1, 0)) * x + (0.5 * max(0, x) * x) ** 0.5,
     lambda x: (x * x) ** 1.5, lambda x: np.asarray(x, float) + np.array([x, 1], float).sum(),
      np.sin, CURVE["speed"][1] * Motor(2.0).stall and (lambda x: CURVE["torque"][1] * x),
 ]
@@ -396,6 +410,12 @@ def refused_above(x):
     return x
 
 
+def left_above(x):
+    if x > 100:
+        raise SystemExit("too fast")
+    return x
+
+
 def forgotten(x):
     if x > 0:
         return x
@@ -421,6 +441,7 @@ CALLS = [
     (Pid(), "sets an attribute, sum"), (pid_in_dict, "changes a dict"), (appended, "changes a list"),
     (counter(), "sets the name n"),
     (global_name, "sets a global name, K"), (caught, "try"), (refused_above, "raises ValueError"),
+    (left_above, "raises SystemExit"),
     (forgotten, "returns NoneType"),
     (too_many, "more than 64 paths"), (unbounded, "more than 64 paths|length depends"), (with_import, "imports a module"),
     (lambda x: 2.0 if (x > 0) is True else x, "identities"), (lambda x: int(x) * 1.0, "converts"),

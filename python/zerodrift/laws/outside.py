@@ -27,7 +27,8 @@ from .formula import IN_NUMPY
 from .quantities import UFUNCS, Quantity, Unrecorded, function, largest, of_array, smallest
 from .table import Table
 
-PLAIN = (type(None), bool, int, float, complex, str, bytes, range, slice, Fraction, np.generic, np.dtype, enum.Enum, Table)
+PLAIN = (type(None), types.NotImplementedType, bool, int, float, complex, str, bytes, range, slice, Fraction, np.generic,
+         np.dtype, enum.Enum, Table)
 FREE = {abs, all, any, bool, bytes, callable, chr, dict, divmod, enumerate, filter, frozenset, int, iter, len, list, map,
         next, ord, pow, range, repr, reversed, round, set, slice, sorted, str, sum, super, tuple, zip, Fraction, functools.reduce,
         functools.partial, collections.namedtuple}
@@ -35,8 +36,10 @@ MODULES = (math, operator, bisect, itertools)       # whose functions have no st
 HANDLERS = {"SETUP_FINALLY", "SETUP_WITH", "PUSH_EXC_INFO"}
 STATE = {"STORE_GLOBAL": "sets a global name", "DELETE_GLOBAL": "sets a global name", "STORE_ATTR": "sets an attribute",
          "DELETE_ATTR": "sets an attribute", "IMPORT_NAME": "imports a module"}
-UNUSED = {"__init__", "__new__", "__del__", "__getattribute__", "__setattr__"}     # methods of classes that copies do not have
+UNUSED = {"__init__", "__new__", "__del__", "__getattribute__", "__setattr__"}     # methods that copies do not have
 FILES = ("save", "load", "set", "from", "gen", "memmap", "print", "show", "info", "test", "get", "buffer", "apply", "vectorize")
+ASKS = ("isscalar", "ndim", "shape", "size", "isreal", "iscomplexobj", "isrealobj")
+OWN = 1 << 9        # Py_TPFLAGS_HEAPTYPE, of types made by a class statement
 NESTED = 50         # objects within objects, at most
 SIZE = 10_000       # entries of a list, a dict, an array that is read, at most
 
@@ -53,6 +56,7 @@ class Outside:
     def __init__(self) -> None:
         self.has_values = False
         self._copies: dict[int, tuple[Any, Any]] = {}       # by identity, with the original, which must stay
+        self._classes: dict[type, type] = {}        # classes of copies of objects
         self._changeable: list[tuple[Any, Any]] = []        # copies, and their content
         self._depth = 0
 
@@ -63,9 +67,9 @@ class Outside:
             return value
         if id(value) not in self._copies:
             self._depth += 1
-            if self._depth > NESTED:
-                raise Unrecorded("reads objects that are nested too deeply")
             try:
+                if self._depth > NESTED:
+                    raise Unrecorded("reads objects that are nested too deeply")
                 self._copies[id(value)] = value, self._copied(value)
             except Unrecorded:
                 self._copies.pop(id(value), None)       # an unfinished copy
@@ -109,15 +113,14 @@ class Outside:
             copy = types.SimpleNamespace(**{key: self.of(each) for key, each in vars(value).items()})
             self._changeable.append((vars(copy), _content(vars(copy))))
             return copy
-        return self._object(value)
+        return Module(value, self) if type(value) is type and value.__flags__ & OWN else self._object(value)
 
     def _array(self, value: np.ndarray) -> Any:
         if value.dtype.kind not in "biuf" or value.size > SIZE:
             raise Unrecorded("reads an array that is large or not of numbers")
         copy = value.view(np.ndarray).copy()
-        copy.flags.writeable = False
+        copy.flags.writeable, self.has_values = False, True
         self._changeable.append((copy, _content(copy)))
-        self.has_values = True
         return copy
 
     def _container(self, value: Any) -> Any:
@@ -166,14 +169,24 @@ class Outside:
         kind = type(value)
         named = getattr(value, "__qualname__", None) or f"a {kind.__name__}"
         module = getattr(value, "__module__", None)
-        is_own = isinstance(kind, type) and kind.__flags__ & (1 << 9)      # made by a class statement: Py_TPFLAGS_HEAPTYPE
+        is_own = isinstance(kind, type) and kind.__flags__ & OWN
         is_usual = type(kind) in (type, abc.ABCMeta) and not hasattr(kind.__init_subclass__, "__func__")
         if (isinstance(value, type) or not is_own or not is_usual or not hasattr(value, "__dict__") or hasattr(value, "__next__")
                 or kind.__getattribute__ is not object.__getattribute__):
             raise Unrecorded(f"uses {module}.{named}" if module and module != "builtins" else f"uses {named}")
-        copy_type = type(kind.__name__, (kind,), {"__del__": lambda _: None})
-        copy: Any = object.__new__(copy_type)
+        copy: Any = object.__new__(self._class_of(kind))
         self._copies[id(value)] = value, copy
+        for name, each in vars(value).items():
+            copy.__dict__[name] = _Refused.unless(self, each)
+        self.has_values = True
+        self._changeable.append((copy.__dict__, _content(copy.__dict__)))
+        return copy
+
+    def _class_of(self, kind: type) -> type:
+        """Class of copies of a class's objects."""
+        if kind in self._classes:
+            return self._classes[kind]
+        self._classes[kind] = copy_type = type(kind.__name__, (kind,), {"__del__": lambda _: None})
         for base in reversed(kind.__mro__[:-1]):
             for name, each in vars(base).items():
                 if name in UNUSED or (name.startswith("__") and not isinstance(each, types.FunctionType)):
@@ -187,11 +200,7 @@ class Outside:
                     setattr(copy_type, name, type(each)(_Refused.unless(self, each.__func__)))      # type: ignore[arg-type]
                 else:
                     setattr(copy_type, name, _Refused.unless(self, each))
-        for name, each in vars(value).items():
-            copy.__dict__[name] = _Refused.unless(self, each)
-        self.has_values = True
-        self._changeable.append((copy.__dict__, _content(copy.__dict__)))
-        return copy
+        return copy_type
 
 
 class _Method:
@@ -234,10 +243,13 @@ class _Refused:
 
 
 class Module:
-    """Stand-in of a module: its names as copies, at use."""
+    """Stand-in of a module, or of a class that is not called: its names as copies, at use."""
 
-    def __init__(self, module: types.ModuleType, outside: Outside) -> None:
+    def __init__(self, module: Any, outside: Outside) -> None:
         self._module, self._outside = module, outside
+
+    def __call__(self, *_: Any, **__: Any) -> Any:
+        raise Unrecorded(f"uses {self._module.__module__}.{self._module.__qualname__}")
 
     def __getattr__(self, name: str) -> Any:
         return self._outside.of(getattr(self._module, name))
@@ -261,19 +273,16 @@ class Numpy(Module):
         return value if isinstance(value, np.ufunc | float | np.generic) or value is None else _of_numpy(value)
 
 
-ASKS = ("isscalar", "ndim", "shape", "size", "isreal", "iscomplexobj", "isrealobj")
-
-
 def _of_numpy(given: Callable[..., Any]) -> Callable[..., Any]:
     """Function of NumPy whose arrays of floats are of objects."""
     makes = given.__name__ in ("zeros", "ones", "empty", "full", "array", "asarray", "asanyarray", "zeros_like", "ones_like",
-                               "empty_like", "full_like", "atleast_1d", "eye", "identity")
+                               "empty_like", "full_like", "eye", "identity")
 
     @functools.wraps(given, updated=())
     def called(*inputs: Any, **more: Any) -> Any:
-        if makes and more.get("dtype", float) in (float, np.float64, "float", "f8", "d"):
-            has_type = given.__name__ == "atleast_1d" or (len(inputs) > 1 and not given.__name__.startswith("full"))
-            more = more if has_type else {**more, "dtype": object}
+        is_default = len(inputs) < 2 or given.__name__.startswith("full")      # else the second argument is the type
+        if makes and is_default and more.get("dtype", float) in (float, np.float64, "float", "f8", "d"):
+            more = {**more, "dtype": object}
         return of_array(given(*inputs, **more))
     return called
 

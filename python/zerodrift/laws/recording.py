@@ -109,7 +109,7 @@ class _Paths:
             raise
         except RecursionError:
             raise Unrecorded("calls itself too often") from None
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             raise Unrecorded(f"raises {type(error).__name__} on one of its paths: {str(error)[:80]}") from None
 
     def _decide(self, condition: Node) -> bool:
