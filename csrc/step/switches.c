@@ -15,7 +15,7 @@
 
 static const double SHARE_OF_STEP = 0x1p-10;    /* accuracy of an instant relative to the step, in units of rtol */
 static const double NEAR = 0x1p6;              /* difference at a change relative to the largest one, likewise */
-enum { HELD = 1, CHANGED = 2 };     /* |side|: the sign at the start of the step; that after a change at its start */
+static const double HELD_SIDE = 1, CHANGED_SIDE = 2;     /* |side|: the sign at the start of the step; that after a change at its start */
 
 zd_switching zd_switching_create(zd_arena *arena, const zd_motion *motion)
 {
@@ -94,7 +94,7 @@ int zd_switching_hold_between(zd_step_loop *loop)
     zd_switching *self = &loop->switching;
     for (int i = 0; i < self->count; i++) {
         const double a = self->before[i], b = self->now[i], larger = fabs(a) > fabs(b) ? a : b;
-        self->side[i] = fmin(fabs(a), fabs(b)) <= NEAR * loop->settings->rtol * self->largest[i] ? copysign(HELD, larger) : 0;
+        self->side[i] = fmin(fabs(a), fabs(b)) <= NEAR * loop->settings->rtol * self->largest[i] ? copysign(HELD_SIDE, larger) : 0;
     }
     write_sides(loop);
     return self->holds;
@@ -119,7 +119,7 @@ static int hold(zd_step_loop *loop, int *status)
 {
     zd_switching *self = &loop->switching;
     for (int i = 0; i < self->count; i++)
-        if (self->before[i] < 0 ? self->now[i] > 0 : self->before[i] > 0 && self->now[i] < 0) self->side[i] = copysign(HELD, self->before[i]);
+        if (self->before[i] < 0 ? self->now[i] > 0 : self->before[i] > 0 && self->now[i] < 0) self->side[i] = copysign(HELD_SIDE, self->before[i]);
     if (!write_sides(loop)) return 0;
     loop->motion->statistics.rejected++;
     zd_closed_form_leave_step(loop->motion);
@@ -185,11 +185,11 @@ static int meet_from_both_sides(zd_step_loop *loop)
 static int change(zd_step_loop *loop)
 {
     zd_switching *self = &loop->switching;
-    const int is_met_again = fabs(self->side[self->sought]) == CHANGED
+    const int is_met_again = fabs(self->side[self->sought]) == CHANGED_SIDE
         && self->bracket.b - loop->stepper->last.t <= 2 * self->bracket.resolution;
     if (is_met_again && loop->control.collapse.share > 0) return meet_from_both_sides(loop);
     for (int i = 0; i < self->count; i++)
-        if (i == self->sought || has_passed(self, i, self->now)) self->side[i] = copysign(CHANGED, -self->side[i]);
+        if (i == self->sought || has_passed(self, i, self->now)) self->side[i] = copysign(CHANGED_SIDE, -self->side[i]);
     if (is_met_again) zd_switching_release(loop);
     self->sought = -1;
     self->is_cut = 1;
