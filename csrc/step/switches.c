@@ -119,7 +119,8 @@ static int hold(zd_step_loop *loop, int *status)
 {
     zd_switching *self = &loop->switching;
     for (int i = 0; i < self->count; i++)
-        if (self->before[i] < 0 ? self->now[i] > 0 : self->before[i] > 0 && self->now[i] < 0) self->side[i] = copysign(HELD_SIDE, self->before[i]);
+        if (self->before[i] < 0 ? self->now[i] > 0 : self->before[i] > 0 && self->now[i] < 0) self->side[i] =
+                copysign(HELD_SIDE, self->before[i]);
     if (!write_sides(loop)) return 0;
     loop->motion->statistics.rejected++;
     zd_closed_form_leave_step(loop->motion);
