@@ -170,7 +170,7 @@ static int describe_method(const zd_run *run, int status, char *to, size_t size)
 
 static void describe_reading(const zd_reactions *reactions, char *to, size_t size)
 {
-    snprintf(to, size, "friction has no unique solution: %s must depend less on the reactions that it reads; det(I - G du/dr) must be "
+    snprintf(to, size, "reactions have no unique solution: %s must depend less on those that it reads; det(I - G du/dr) must be "
              "positive, and is %.3g (condition %.3g)", reactions->reading->name[reactions->strongest], reactions->determinant,
              reactions->condition);
 }

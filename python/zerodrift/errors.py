@@ -239,7 +239,7 @@ class Bifurcation(SingularSystem):
 
 
 class NoUniqueMotion(SingularSystem):
-    """Friction has no unique solution: forces depend too strongly on the reactions that they read (Painleve)."""
+    """Reactions have no unique solution: forces depend too strongly on those that they read, as friction can (Painleve)."""
 
     code = "no-unique-motion"
 

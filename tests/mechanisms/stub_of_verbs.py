@@ -12,7 +12,6 @@ from zerodrift.mechanisms.building import table_verbs
 from zerodrift.mechanisms.elements import forces
 from zerodrift.mechanisms.elements.measures import Measure, VectorMeasure
 from zerodrift.mechanisms.elements.space_joints import BY_KIND
-from zerodrift.mechanisms.elements.table_forces import MOMENT
 
 STUB = Path(table_verbs.__file__).with_suffix(".pyi")
 HEAD = '''"""Methods of `Mechanism` made from the core's tables; written by tests/support/stubs.py."""
@@ -53,7 +52,7 @@ def measures(kinds):
     """Measures of an element of these classes, of the plane and of space, by name: a vector if one of them has a vector."""
     element = SimpleNamespace(measured_name="element", dimension=3)
     found = [(name, value.fget(element)) for kind in kinds for name, value in vars(kind).items()
-             if (isinstance(value, property) and value.fget.__module__ == Measure.__module__) or value is MOMENT]
+             if isinstance(value, property) and value.fget.__module__ == Measure.__module__]
     vectors = {name for name, measure in found if isinstance(measure, VectorMeasure)}
     return {name: "VectorMeasure3" if name in vectors else "Measure" for name, _ in found}
 
@@ -73,4 +72,4 @@ def stub():
                                [force], getattr(force, "stored", {}).values()) for force in table_verbs.FORCES.values()]
     methods = [method for name, method in vars(table_verbs.TableVerbs).items() if not name.startswith("_")]
     body = "\n".join([*classes, "class TableVerbs(Elements):", *map(declared, methods)])
-    return HEAD.format(types=", ".join(each for each in ("ArrayLike", "Bindings", "LawLike") if each in body)) + body
+    return HEAD.format(types=", ".join(each for each in ("ArrayLike", "Bindings", "LawLike", "Laws") if each in body)) + body

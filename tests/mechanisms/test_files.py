@@ -21,7 +21,7 @@ t, x = sp.symbols("t x")
 
 def everything():
     """A mechanism with every kind of element, turned so that no axis is a global one, and with numbers that are not round."""
-    m = zd.Mechanism("all sorts", gravity=(0.1, -9.81), parameters={"k": 1 / 3})
+    m = zd.Mechanism("all sorts", gravity=(0.1, sp.cos(t) - 9.81), parameters={"k": 1 / 3})
     arm = m.link("arm", (0, 0), (1, 0.3), mass=1.1, length=1.05)
     bar = m.link("bar", arm.end, (1.7, -0.4), mass=0.7, inertia=0.05)
     box = m.body("box", 2.0, 0.3, at=(3, 1), angle=0.7, com=(0.05, -0.02))

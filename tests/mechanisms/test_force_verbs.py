@@ -161,7 +161,7 @@ def test_its_arguments_are_those_that_scripts_rely_on():
     expected = {"spring": {"stiffness": None, "damping": 0.0, "length": None, "force": None, "of": None},
                 "torsion_spring": {"stiffness": None, "angle": None, "damping": 0.0, "torque": None, "of": None},
                 "bushing": {"at": None, "stiffness": 0.0, "damping": 0.0, "torsion": 0.0, "torsion_damping": 0.0, "axis": None,
-                            "normal": None}}
+                            "normal": None, "force": None, "torque": None, "of": None}}
     for kind, given in expected.items():
         known = inspect.signature(getattr(zd.Mechanism, kind)).parameters.values()
         assert {each.name: ... if each.default is each.empty else each.default for each in known

@@ -165,3 +165,31 @@ def test_what_has_no_finite_value_is_reported_in_the_words_of_the_law():
     m = scene(lambda m, guide: m.motor("drive", guide, force=sp.log(0.15 - t)), 2)
     with pytest.raises((ZerodriftError, ValueError), match=r"force of motor 'drive'"):
         zd.simulate(m, 1.0, step=0.01)
+
+
+NUMBERS = {}
+
+
+@pytest.mark.parametrize(("law", "error"), [(lambda t: NUMBERS["a"], KeyError), (lambda t: 1.0 / (0 * t), ZeroDivisionError)])
+@pytest.mark.parametrize(("where", "add"), [
+    ("force of motor 'drive'", lambda m, guide, law: m.motor("drive", guide, force=law)),
+    ("value of force 'push'", lambda m, guide, law: m.force("push", m["body"].center, along=(1, 0), value=law)),
+    ("stiffness of spring 'k'", lambda m, guide, law: m.spring("k", m.ground.point((5, 5)), m["body"].center, stiffness=law)),
+    ("force.x of bushing 'b'", lambda m, guide, law: m.bushing("b", m.ground, m["body"], at=(1, 1), force=(law, 0.0)))])
+def test_a_function_that_raises_is_named_with_its_element(law, error, where, add):
+    """Its own error, with a note; print(m) says that the mechanism cannot start."""
+    m = scene(lambda m, guide: add(m, guide, law), 2)
+    with pytest.raises(error) as raised:
+        zd.simulate(m, 1.0, step=0.01)
+    assert any(f"in {where}, called at t = 0" in note for note in raised.value.__notes__)
+    assert f"in {where}, called at t = 0" in str(m)
+    with support.refused("not-portable", where):
+        m.save("nowhere")
+
+
+@pytest.mark.parametrize("name", ["lambda", "class", "a b", "1a"])
+def test_parameters_that_no_function_can_name(name):
+    with support.refused("wrong-value", "names that a callable can take"):
+        zd.Mechanism("m", parameters={name: 1.0})
+    with support.refused("wrong-value", "names that a callable can take"):
+        zd.Mechanism("m").parameter(name, 1.0)

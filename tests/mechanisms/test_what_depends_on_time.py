@@ -1,4 +1,4 @@
-"""Stiffnesses that depend on time, against laws that say the same, and SciPy; masses and gravity, which are refused."""
+"""Stiffnesses and gravity that depend on time, against forces that say the same, and SciPy; masses, which are refused."""
 
 import numpy as np
 import pytest
@@ -22,7 +22,6 @@ def test_they_are_refused_with_what_to_take(given):
     link = m.link("link", (0, 0), (1, 0), mass=1.0)
     for call, hint in ((lambda: hung(stiffness=5.0, damping=given), "lambda speed"),
                        (lambda: m.bushing("b", m.ground, link, at=(0, 0), stiffness=(1.0, given)), "stiffness of 'b'"),
-                       (lambda: zd.Mechanism("g", gravity=(0, given)), r"force\(\)"),
                        (lambda: m.particle("p", given, at=(0, 0)), "acceleration"),
                        (lambda: m.body("p", given, 1.0), "acceleration")):
         with refused("wrong-type", f"must be a number, not a function: .*{hint}" if "'" not in hint else hint):
@@ -106,6 +105,65 @@ def test_a_stiffness_that_changes():
                       rtol=1e-12, atol=1e-13, t_eval=sol.t)
     assert_close(sol["mass.position.y"], known.y[0], 1e-9, scale=1.0)
     assert np.abs(sol.energy_violation).max() < 1e-9
+
+
+# ---- gravity ----
+
+WEIGHTS = {"bar": 2.0, "bob": 0.7, "free": 1.5, "body": 2.0}        # kg
+
+
+def under(dimension, **given):
+    """A bar with a particle at its end, a free particle, and a body that turns about a centre off its origin."""
+    more = (0,) * (dimension - 2)
+    m = zd.Mechanism("under", dimension=dimension, **given)
+    bar = m.link("bar", (0, 0, *more), (1, 0, *more), mass=WEIGHTS["bar"])
+    m.revolute("pin", m.ground, bar.start, **({"axis": (0, 0, 1)} if more else {}))
+    m.particle("bob", WEIGHTS["bob"], at=bar.end)
+    m.particle("free", WEIGHTS["free"], at=(0, 0, *more))
+    m.body("body", WEIGHTS["body"], (0.1, 0.2, 0.3) if more else 0.3, at=(2, 1, *more), com=(0.3, 0.1, *more))
+    m.start({"body.angular_velocity": (1.0, -2, 3) if more else 3.0, "body.velocity": (0.1, 0.2, *more)})
+    return m
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+@pytest.mark.parametrize("compiled", [None, True])
+def test_gravity_of_time_is_the_weight_of_each_body(dimension, layout, compiled, tmp_path):
+    """At its centre of mass, particles included; the energy that it gives is an input."""
+    more = (0,) * (dimension - 2)
+    m, known = under(dimension, gravity=lambda t: (0.3 * np.sin(4 * t), -9.81 + 3 * np.sin(2 * t), *more)), under(dimension)
+    for name, mass in WEIGHTS.items():
+        known.force(f"{name} x", name, along=(1, 0, *more), value=lambda t, mass=mass: mass * 0.3 * np.sin(4 * t))
+        known.force(f"{name} y", name, along=(0, 1, *more), value=lambda t, mass=mass: mass * (-9.81 + 3 * np.sin(2 * t)))
+    found, known, again = (zd.simulate(each.system(layout, compiled=compiled), 0.5, step=1e-3)
+                           for each in (m, known, zd.load(m.save(tmp_path / "m"))))
+    assert_close(found.p, known.p, 1e-13, scale=1.0)
+    assert_close(again.p, found.p, 1e-14, scale=1.0)
+    assert_close(found["pin.force"], known["pin.force"], 1e-12, scale=10.0)
+    assert np.abs(found.energy_violation).max() < 1e-9
+    if dimension == 2:
+        assert_close(zd.simulate(m.lifted(), 0.5, step=1e-3)["body.position"][:, :2], found["body.position"], 1e-10, scale=1.0)
+
+
+@pytest.mark.parametrize(("given", "parameters", "fallen"), [
+    (lambda g, t: (0, -g - 5 * t), {"g": 2.0}, 1 + 5 / 6), ((0, -2 - 5 * sp.Symbol("t")), {}, 1 + 5 / 6),
+    ((0, zd.table([0, 2], [-9, -1], kind="linear")), {}, 4.5 - 4 / 6), ((0, lambda t: -6 * t), {}, 1.0)])
+def test_gravity_as_functions_expressions_and_tables(given, parameters, fallen):
+    """The fall of a particle in 1 s; other masses fall alike, and gravity that is assigned adds."""
+    m = under(2, gravity=given, parameters=parameters)
+    for each in (m, m.with_parameters({"free.mass": 3.0})):
+        assert_close(zd.simulate(each, 1.0, rtol=1e-10, atol=1e-10)["free.position.y"][-1], -fallen, 1e-9, scale=1.0)
+    m.gravity[1] = -2.0
+    assert_close(zd.simulate(m, 1.0, rtol=1e-10, atol=1e-10)["free.position.y"][-1], -fallen - 1, 1e-9, scale=1.0)
+    assert "varying gravity" in str(under(2, gravity=given, parameters=parameters))
+
+
+@pytest.mark.parametrize(("given", "code", "sentence"), [
+    (lambda x: (0, x), "user-function", "gravity asks for 'x'"),
+    ((0, lambda t: t, 0), "shape", "one law for each of 2 directions")])
+def test_gravity_that_is_refused(given, code, sentence):
+    with refused(code, sentence):
+        zd.Mechanism("none", gravity=given)
 
 
 def test_a_rocket_that_burns():

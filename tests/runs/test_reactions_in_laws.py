@@ -80,7 +80,7 @@ def test_friction_of_long_arms_up_to_painleve_is_solved_and_beyond_refused(seed,
     run = zd.Run(mechanism(half).system(layout), step=1e-3)
     expected, _ = accelerations(half, 0 * half.speeds, half.speeds)
     assert [run[f"pin{i}.acceleration"] for i in range(len(half.c))] == pytest.approx(expected, rel=1e-9, abs=1e-9)
-    with pytest.raises(zd.NoUniqueMotion, match="friction has no unique solution"):
+    with pytest.raises(zd.NoUniqueMotion, match="reactions have no unique solution"):
         zd.Run(mechanism(strong._replace(c=1.2 * strong.c)).system(layout)).step(1)
 
 
@@ -94,7 +94,7 @@ def test_accelerations_of_loops_are_those_of_dense_equations(seed, dimension, la
     expected = equations.solve([np.eye(3)] * 3, twists[:, 3:], loop.c)[0].reshape(3, 6)[0, 3:] @ loop.axes[0]
     run = zd.Run(loops.mechanism(loop).system(layout), step=1e-3)
     assert run["A.acceleration"] == pytest.approx(expected, rel=1e-9, abs=1e-9)
-    with pytest.raises(zd.NoUniqueMotion, match="must depend less on the reactions that it reads"):
+    with pytest.raises(zd.NoUniqueMotion, match="must depend less on those that it reads"):
         zd.Run(loops.mechanism(strong._replace(c=1.1 * strong.c)).system(layout)).step(1)
 
 

@@ -51,6 +51,7 @@ Names = MeasureLike | Measures
 Points = Point | MeasureLike | Sequence[Point | MeasureLike]
 Inputs = MeasureLike | Sequence[MeasureLike] | Mapping[str, tuple[float, float] | None]
 LawLike = float | Expression | Callable[..., Any]
+Laws = LawLike | Sequence[LawLike] | np.ndarray
 UserFunction = Callable[..., Any]
 TermLike = ArrayLike | UserFunction
 Equations = Sequence[Expression] | Mapping[str, Expression]

@@ -41,7 +41,7 @@
     STATUS(ZD_BAD_INPUT, -25, "InputRefused", "an input is not finite, or beyond its limits") \
     STATUS(ZD_COLLAPSED, -26, "StepFailed", "the step size has collapsed at one place") \
     STATUS(ZD_SEVERAL_MOTIONS, -27, "NoUniqueMotion", \
-           "friction has no unique solution: forces must not depend so strongly on the reactions that they read") \
+           "reactions have no unique solution: forces must not depend so strongly on those that they read") \
     STATUS(ZD_CHATTERS, -28, "StepFailed", "an event acts again and again at one instant")
 
 #define ZD_STATUS_NUMBER(name, number, error, sentence) name = number,

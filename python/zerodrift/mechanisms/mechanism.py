@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._private import checks
+from .._private.types import Laws
 from .._private.writing import with_suffix, write_atomically
 from ..errors import WrongType, WrongValue
 from ..systems.base import Makes, Terms
@@ -20,7 +21,7 @@ from .building.joint_verbs import JointVerbs
 from .building.plane_to_space import lift
 from .building.start_verbs import StartVerbs
 from .elements.drawing import Drawing
-from .elements.user_functions import Law
+from .elements.forces import Gravity
 from .files.to_json import described, text
 from .reports.summary import headline, report
 from .system import LAYOUTS, MechanismSystem
@@ -40,8 +41,9 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
     dimension : int
         2, the plane, or 3, space: then points and directions have three components, and hinges and sliders an ``axis=``. In
         space there are not yet all elements: what is not there says so.
-    gravity : array_like (dimension,), optional
-        In m/s^2, in the drawing's axes; left out: none.
+    gravity : array_like (dimension,) of numbers or laws, or callable, optional
+        In m/s^2, in the drawing's axes; left out: none. A function, such as of ``t``, returns a number for each axis; its work is
+        an input of energy.
     parameters : dict of str to float, optional
         Numbers of one's own, which callables and expressions may name; `parameter` adds to them.
 
@@ -74,16 +76,19 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
     >>> bar.start({crank.angle: np.pi / 2, crank.angular_velocity: 1.0})
     """
 
-    def __init__(self, name: str, *, dimension: int = 2, gravity: ArrayLike | None = None,
+    def __init__(self, name: str, *, dimension: int = 2, gravity: ArrayLike | Laws | None = None,
                  parameters: Mapping[str, float] | None = None) -> None:
         if not isinstance(name, str) or not name:
             raise WrongType(f"name must be a string that is not empty, not {checks.shown(name)}")
         if dimension not in (2, 3) or isinstance(dimension, bool):
             raise WrongValue(f"dimension must be 2, the plane, or 3, space, not {checks.shown(dimension)}", "wrong-dimension")
         self.name, self.dimension = name, int(dimension)
-        checks.constant("gravity", gravity, "give each body its weight by force(), such as value=lambda t: mass * g(t)")
-        self.gravity = np.zeros(self.dimension) if gravity is None else checks.vector("gravity", gravity, self.dimension)
+        varies, none = checks.varies(gravity), np.zeros(self.dimension)
+        self.gravity = none if gravity is None or varies else checks.vector("gravity", gravity, self.dimension)
         super().__init__(parameters)
+        if varies:
+            laws = zip("xyz", self._components("gravity", gravity, self.dimension, {}), strict=False)
+            self._add(Gravity({axis: self._law(f"gravity.{axis}", law, reactions=True) for axis, law in laws}))
 
     def system(self, coordinates: Literal["joint", "absolute"] | None = None, compiled: bool | None = None) -> MechanismSystem:
         """The equations of the mechanism as it is now; what is added later does not change them.
@@ -287,7 +292,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
 
     def _drawing(self) -> Drawing:
         gravity = np.array(checks.vector("gravity", self.gravity, self.dimension))
-        laws = [law for element in self._elements.values() if isinstance(law := getattr(element, "law", None), Law)]
+        laws = [law for element in self._elements.values() for law in element.laws.values()]
         for law in laws:
             law.record(self.parameters)     # anew where what it reads from outside has changed
         if any(law.recorded.has_state for law in laws):

@@ -29,9 +29,10 @@ from .elements.forces import driven, inputs_of
 from .elements.numbers import Numbers, checked, is_right
 from .elements.space_bodies import SpaceInertias
 from .equations.generated_code import Written, measure_program
+from .equations.measure_names import constraint_names
 from .equations.measure_tables import measuring
 from .equations.space_tables import SpaceTables, tables_of
-from .equations.tables import Tables, constraint_names
+from .equations.tables import Tables
 from .files.to_json import described
 from .pictures.arrows import acting, chosen
 from .pictures.plane_outline import outline

@@ -11,7 +11,7 @@ from ..elements.bodies import Body, Link, Particle
 from ..elements.drawing import Drawing
 from ..elements.joints import Joint
 from ..elements.numbers import AS_GIVEN, Numbers
-from ..equations.tables import constraint_names
+from ..equations.measure_names import constraint_names
 from .assembly import Assembly
 from .sketches import is_sketch, loop_of
 

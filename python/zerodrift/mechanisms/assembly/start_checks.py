@@ -43,7 +43,7 @@ def _apart(tables: Tables, element: Any, poses: np.ndarray) -> tuple[float, floa
     apart = float(np.linalg.norm(second - first))
     if element.law:
         return apart, 0.0, 0.0
-    stiffness, damping = (tables.numbers(element, path, element.values[path]) for path in paths(element.row)[0])
+    stiffness, damping = (tables.numbers(element, path, element.values[path]) for path in paths(element.row)[0][:2])
     return apart, element.length_with(tables.numbers) if stiffness else 0.0, damping
 
 
@@ -57,7 +57,7 @@ def _place(poses: np.ndarray, body: int, point: Any) -> np.ndarray:
 
 def _is_half_turned(tables: Tables, element: TableForce, poses: np.ndarray) -> bool:
     """True if a bushing in space with torsional stiffness is at half a turn, where the trace of its rotation is -1."""
-    about = [(i, path) for i, (path, _) in enumerate(paths(element.row)) if element.quantities[i].kind == "rotation"]
+    about = [(i, path) for i, (path, *_) in enumerate(paths(element.row)) if element.quantities[i].kind == "rotation"]
     if not any(tables.numbers(element, path, element.values[path]) for _, path in about):
         return False
     quantity: Any = tables.quantities[tables.quantity_number[f"{element.name} {about[0][0]}"]]

@@ -54,10 +54,10 @@ class ForceVerbs(Elements):
             Measures that the callable receives, by argument name. The joint's own ``angle`` or ``displacement``, and ``speed``,
             need none: ``torque=lambda speed: 3 - 0.1 * speed``.
         rotor : float
-            Moment of inertia J of the motor's rotor about the joint's axis in kg m^2: it adds the energy
-            ``J * (a.w1 + ratio * q')**2 / 2``, with the axis a, the first body's angular velocity w1, and q the joint's angle or,
-            in space, displacement. The rotor's mass and its transverse inertia are to be part of the first body. It is a body
-            without mass, ``"name rotor"``, that turns about ``"name shaft"`` by ``"name gear"``.
+            Moment of inertia J of the motor's rotor about the joint's axis in kg m^2: it adds the energy ``J * (a.w1 + ratio *
+            q')**2 / 2``, with the axis a, the first body's angular velocity w1, and q the joint's angle or, in space,
+            displacement; an angle of a universal joint has none. The rotor's mass and its transverse inertia are to be part of
+            the first body. It is a body without mass, ``"name rotor"``, that turns about ``"name shaft"`` by ``"name gear"``.
         ratio : float
             Angle of the rotor for q = 1, in rad/rad or rad/m; negative where it turns the other way.
 

@@ -10,12 +10,13 @@ import numpy as np
 from ...errors import WrongValue
 from ..elements.bodies import Body, Link, Particle, Point, _Center, kind_of
 from ..elements.drawing import Drawing
+from ..elements.forces import Bushing, Gravity
 from ..elements.frames import about
 from ..elements.immutable import amend
 from ..elements.joints import Joint
 from ..elements.space_joints import BY_KIND
 from ..elements.table_forces import TableForce
-from ..elements.user_functions import Law
+from ..elements.user_functions import Component, Law
 from .coupling_verbs import _Follows, _Profile, _Sum
 from .table_verbs import FORCES, PLANE
 
@@ -33,7 +34,7 @@ def lift(drawing: Drawing, m: Any) -> None:
             LIFTED[kind](m, element)
     for name in _free(drawing):
         _keep(m, m[name])
-    m.start(_start(drawing, drawing.held), wish=_start(drawing, drawing.wished))
+    m.start(_start(m, drawing, drawing.held), wish=_start(m, drawing, drawing.wished))
 
 
 def _free(drawing: Drawing) -> list[str]:
@@ -94,12 +95,12 @@ def _sides(m: Any, element: Any) -> tuple[Any, Any]:
 def _measure(m: Any, name: str) -> str:
     """Name of a measure in space."""
     owner, _, quantity = name.rpartition(".")
-    if not isinstance(body := m._elements.get(owner), Body):
-        return name
-    if quantity == "angle":
-        raise WrongValue(f"{name!r} cannot be lifted: {body.name!r} has a rotation in space and no angle; take that of a joint",
+    element = m._elements.get(owner)
+    if isinstance(element, Body) and quantity == "angle":
+        raise WrongValue(f"{name!r} cannot be lifted: {owner!r} has a rotation in space and no angle; take that of a joint",
                          "wrong-dimension")
-    return f"{name}.z" if quantity == "angular_velocity" else name
+    is_turned = quantity == "angular_velocity" or (quantity == "angle" and isinstance(element, Bushing))
+    return f"{name}.z" if is_turned else name
 
 
 def _law(m: Any, law: Law | None, word: str = "value") -> dict[str, Any]:
@@ -109,22 +110,21 @@ def _law(m: Any, law: Law | None, word: str = "value") -> dict[str, Any]:
     bound = {name: _measure(m, measure) for name, measure in law._bound.items()}
     given = {name: measure for name, measure in bound.items() if "." not in name}
     measured = {name: bound[name] for name in bound.keys() - given.keys()}
-    return {word: law._function or (law.formula and law.formula.renamed(measured)), "of": given}
+    is_formula = law.formula and (law._function is None or isinstance(law._function, Component))
+    return {word: law.formula.renamed(measured) if is_formula else law._function, "of": given}      # type: ignore[union-attr]
 
 
-def _start(drawing: Drawing, given: Mapping[str, Any]) -> dict[str, Any]:
+def _start(m: Any, drawing: Drawing, given: Mapping[str, Any]) -> dict[str, Any]:
     """Start in measures of space."""
     said: dict[str, Any] = {}
     for name, value in given.items():
         owner, _, quantity = name.rpartition(".")
         if isinstance(drawing.elements.get(owner), Body) and quantity == "angle":
             said[f"{owner}.rotation"] = about(NORMAL, value)
-        elif isinstance(drawing.elements.get(owner), Body) and quantity == "angular_velocity":
-            said[f"{name}.z"] = value
         elif np.ndim(value):
             said |= {f"{name}.x": float(value[0]), f"{name}.y": float(value[1])}
         else:
-            said[name] = value
+            said[_measure(m, name)] = value
     return said
 
 
@@ -224,7 +224,9 @@ def _bushing(m: Any, bushing: Any) -> None:
         along[word] = *(bushing.values[f"{word}.{axis}"] for axis in "xy"), 0.0
     for word in ("torsion", "torsion_damping"):
         about[word] = 0.0, 0.0, bushing.values[word]
-    m.bushing(bushing.name, *_sides(m, bushing), **along, **about)
+    made = m.bushing(bushing.name, *_sides(m, bushing), **along, **about)
+    amend(made, laws={path.replace("torque", "torque.z"): m._law(law.what, *_law(m, law).values(), reactions=True)
+                      for path, law in bushing.laws.items()})
 
 
 def _force(m: Any, force: Any) -> None:
@@ -237,6 +239,11 @@ def _torque(m: Any, torque: Any) -> None:
     m.torque(torque.name, torque.body.name, against=torque.against.name, axis=NORMAL, **_law(m, torque.law))
 
 
+def _gravity(m: Any, gravity: Gravity) -> None:
+    laws = {axis: m._law(law.what, *_law(m, law).values(), reactions=True) for axis, law in gravity.laws.items()}
+    m._add(Gravity({**laws, "z": Law("gravity.z", 0.0)}))
+
+
 def _own_measure(m: Any, measure: Any) -> None:
     m.measure(measure.name, unit=measure.unit, **_law(m, measure.law))
 
@@ -247,4 +254,5 @@ LIFTED: dict[str, Callable[[Any, Any], None]] = {
     "knife_edge": _knife_edge, "gear": _linear, "rack_pinion": _linear, "coupler": _coupling,
     "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
     "motor": _motor, "actuator": _actuator, **{kind: _table_force for kind, force in FORCES.items() if 3 in force.entries},
-    "bushing": _bushing, "force": _force, "torque": _torque, "measure": _own_measure}
+    "bushing": _bushing, "force": _force, "torque": _torque, "measure": _own_measure,
+    "gravity": _gravity}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import keyword
 import re
 from collections.abc import Iterable, Mapping
 from typing import Any
@@ -12,13 +13,15 @@ from ..._private import checks
 from ..._private.gateway.mechanisms.element_tables import MAX_READS
 from ..._private.types import Bindings, LawLike
 from ...errors import WrongName, WrongType, WrongValue
+from ...laws.table import Table
+from ...systems.user_callables import arguments
 from ..elements.bodies import Body, Ground, Link, Particle, Point, place
 from ..elements.forces import Motor
 from ..elements.joints import Joint
 from ..elements.measures import Measure
 from ..elements.own_measures import OwnMeasure
 from ..elements.space_bodies import SpaceGround
-from ..elements.user_functions import Law
+from ..elements.user_functions import Component, Law
 from ..equations.measure_names import is_dynamic, readable, reading
 
 
@@ -64,7 +67,7 @@ class Elements:
         >>> m.with_parameters(mu=0.5).parameters["mu"]
         0.5
         """
-        if not next(iter(checks.parameters({name: value}))).isidentifier():
+        if not next(iter(checks.parameters({name: value}))).isidentifier() or keyword.iskeyword(name):
             raise WrongValue(f"parameters must have names that a callable can take, without a dot, not {name!r}")
         if name in self.parameters:
             raise WrongValue(f"parameter {name!r} is {self.parameters[name]:g} already: with_parameters() changes it",
@@ -300,6 +303,27 @@ class Elements:
         if not reactions:
             law.check_smooth(what.split()[0] not in ("speed", "nonholonomic"))
         return law
+
+    def _components(self, what: str, given: Any, size: int, own: Mapping[str, Any], of: Any = None) -> list[Any]:
+        """A law for each direction, from a function that returns a vector, or from so many laws, of vectors and others.
+
+        `own` has measures by the words of functions, lists of components for vectors.
+        """
+        def component(law: Any, index: int | None) -> Any:
+            if not callable(law) or isinstance(law, Table):
+                return law
+            wanted = arguments(what, law, ["t", *self.parameters, *own, *(of or ())], ", and what of= binds to measures")
+            if clash := {*wanted} & own.keys() & self.parameters.keys() - (of or {}).keys():
+                raise WrongValue(f"{what} asks for {min(clash)!r}, which is its own and a parameter of {self.name!r}",
+                                 "duplicate-name")
+            return Component(law, {word: word if word in (of or ()) else own.get(word, word) for word in wanted}, index, size)
+
+        if callable(given) and size > 1:
+            return [component(given, i) for i in range(size)]
+        laws = np.atleast_1d(np.array(given, dtype=object)).tolist()
+        if len(laws) != size:
+            raise WrongValue(f"{what} must be a function, or one law for each of {size} directions", "shape")
+        return [component(each, None) for each in laws]
 
     def _check_measured(self, what: str, measure: str, elements: Mapping[str, Any] | None = None) -> None:
         """Check that the element of a measure exists."""

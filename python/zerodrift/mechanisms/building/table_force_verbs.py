@@ -10,11 +10,13 @@ import numpy as np
 
 from ..._private import checks
 from ..._private.gateway.mechanisms.element_tables import ElementKind
+from ..._private.rotations import AXES
 from ...errors import WrongType, WrongValue
 from ..elements.bodies import Point
 from ..elements.frames import perpendicular
 from ..elements.immutable import amend
-from ..elements.table_forces import ROTATIONS, TableForce, has, is_between_points, law_word, lengths, parameters
+from ..elements.table_forces import ROTATIONS, TableForce, has, is_between_points, law_words, lengths, parameters, paths
+from ..elements.user_functions import Law
 from .registry import Elements
 from .table_joint_documentation import POINTS, SIDES, wrapped
 
@@ -36,13 +38,24 @@ WORDS = {
     "value": ("float, callable or SymPy expression",
               "In {unit}; of the same as the torque of `motor`."),
     "of": ("dict of str to measure", "Measures that the callable receives, by argument name.")}
+VECTOR = {
+    word: (f"callable or array_like of laws, in the place of `{stiffness}`",
+           f"{what} on the second body along its directions, {unit}, one number for each: "
+           f"``{word}=lambda {value}, {rate}: -500 * {value} - 5 * {rate}`` restores. {more}of the same as the "
+           "torque of `motor`, and an input of energy.")
+    for word, stiffness, what, unit, value, rate, more in (
+        ("force", "stiffness", "Force", "in N", "displacement", "velocity", "Arrays of its own ``displacement``, ``velocity``, "
+         "``angle`` and ``angular_velocity`` need no `of`, the last two are numbers in the plane; "),
+        ("torque", "torsion", "Torque", "in N m", "angle", "angular_velocity", "As `force`, "))}
 UNITS = {"stiffness": ("N/m", "N m/rad"), "damping": ("N s/m", "N m s/rad"), "torsion": ("", "N m/rad"),
          "torsion_damping": ("", "N m s/rad"), "value": ("N", "N m")}      # along marker quantities in m and in rad
 KINDS = {"name": "str", "first": "Side", "second": "Side", "joint": "Joint | Measure | str", "value": "LawLike",
-         "force": "LawLike | None", "torque": "LawLike | None", "of": "Bindings | None"}
+         **dict.fromkeys(("stiffness", "force", "torque"), "LawLike | None"), "of": "Bindings | None"}
+BUSHING = {"stiffness": "ArrayLike", **dict.fromkeys(("force", "torque"), "Laws | None")}
 NEEDED = inspect.Parameter.empty
 SYMMETRIC = 1e-9        # of the largest entry of a matrix: asymmetry, at most
-HINT = "its potential is one of positions alone; springs and torsion springs take functions"
+HINT = ("its potential is one of positions alone; give force=, such as lambda t, displacement: -k(t) * displacement, or "
+        "torque=, such as lambda t, angle: -k(t) * angle")
 VARYING = (" As a function, such as ``lambda t: 500 + 20 * t``, it is of the same as the torque of `motor`; "
            "its work is then an input of energy.")
 DAMPER = "give force= of a spring, such as lambda speed: 5 * speed**3, or torque= of a torsion spring, with the opposite sign"
@@ -51,12 +64,12 @@ FLAT = 1e-6             # sine of the angle below which directions are parallel
 
 def force_verb(force: type[TableForce]) -> Callable[..., Any]:
     """Method of `Mechanism` for one kind of force element."""
-    given = {name: NEEDED for name in sides(force)}
+    given, kinds = {name: NEEDED for name in sides(force)}, KINDS if _either(force).measure else KINDS | BUSHING
     signature = inspect.Signature(
         [inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD, annotation=KINDS.get(name, NEEDED))
          for name in ("self", "name", *given)]
         + [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=initial,
-                             annotation=KINDS.get(name, "ArrayLike" if initial is not None else "ArrayLike | None"))
+                             annotation=kinds.get(name, "ArrayLike" if initial is not None else "ArrayLike | None"))
            for name, initial in _words_of_all(force).items()], return_annotation=force.__name__)
 
     def make(m: Elements, *given: Any, **named: Any) -> TableForce:
@@ -84,9 +97,8 @@ def words(entry: ElementKind) -> dict[str, Any]:
     at = {} if entry.at_joint or is_between_points(entry) else {"at": None}
     if not entry.is_spring:
         return {**at, **axes, "value": NEEDED, "of": None}
-    law = dict.fromkeys((law_word(entry), "of")) if entry.measure else {}
-    return {**at, **{word: None if word in ("length", "angle") or (word == "stiffness" and law) else 0.0
-                     for word in parameters(entry)}, **law, **axes}
+    return {**at, **{word: None if word in ("length", "angle") or (word == "stiffness" and entry.measure) else 0.0
+                     for word in parameters(entry)}, **dict.fromkeys((*law_words(entry), "of")), **axes}
 
 
 def _either(force: type[TableForce]) -> ElementKind:
@@ -113,18 +125,20 @@ def _add(m: Elements, force: type[TableForce], name: Any, given: dict[str, Any])
     place = _directions(m, entry, name, given, ends)
     place |= {"which": which} if (which := given.get("which")) else {}
     stiffness: Any = given.get("stiffness")
-    drives = "stiffness" if entry.measure and checks.varies(stiffness) else law_word(entry)
+    drives = "stiffness" if entry.measure and checks.varies(stiffness) else law_words(entry)[0]
     if entry.is_spring and entry.measure:
         _check_one(f"{what} {name!r}", entry.measure, given)
     if np.shape(stiffness) == (6, 6) and entry.axes == 3:
         place |= {"coupled": coupled} if (coupled := _coupled(name, given)).any() else {}
-    law = given.pop(drives, None)
+    law = given.pop(drives) if entry.measure else None
     values = {path: value for word in parameters(entry) for path, value in _values(word, name, entry, given.get(word)).items()}
     element = force(name, *ends, values=values, **place)
     if law is not None:
         amend(element, drives=drives, law=m._law(f"{drives} of {what} {name!r}", law, given["of"], reactions=True,
                                                  own=(element.joint or element) if entry.is_spring else None,
                                                  which=element.which))
+    if not entry.measure:
+        amend(element, laws=_laws(m, element, given))
     return m._add(element)
 
 
@@ -137,6 +151,26 @@ def _coupled(name: str, given: dict[str, Any]) -> np.ndarray:
         raise WrongValue(f"stiffness of {name!r} must be symmetric", "shape")
     given["stiffness"], given["torsion"] = np.split(np.diag(K), 2)
     return (K + K.T) / 2 - np.diag(np.diag(K))
+
+
+def _laws(m: Elements, bushing: TableForce, given: dict[str, Any]) -> dict[str, Law]:
+    """User functions of a bushing by path."""
+    found, own, what = {}, {}, f"of bushing {bushing.name!r}"
+    turns = 2 * m.dimension - 3
+    for word, axes in (("displacement", m.dimension), ("velocity", m.dimension), ("angle", turns), ("angular_velocity", turns)):
+        name = f"{bushing.name}.{word}"
+        own[word] = name if axes == 1 else [f"{name}.{axis}" for axis in AXES[:axes]]
+    for word, stiffness in (("force", "stiffness"), ("torque", "torsion")):
+        if given[word] is None:
+            continue
+        if np.any(given[stiffness]) or bushing.coupled is not None:
+            raise WrongType(f"{word} {what} takes the place of {stiffness}", "conflicting-arguments")
+        along = [each[2] for each in paths(bushing.row) if each[2].startswith(word)]
+        for path, law in zip(along, m._components(f"{word} {what}", given[word], len(along), own, given["of"]), strict=True):
+            found[path] = m._law(f"{path} {what}", law, given["of"], reactions=True, own=bushing)
+    if not found and given["of"] is not None:
+        raise WrongType(f"of {what} goes with force and torque", "conflicting-arguments")
+    return found
 
 
 def _check_one(what: str, law: str, given: dict[str, Any]) -> None:
@@ -223,7 +257,8 @@ def _documentation(force: type[TableForce]) -> str:
     """Docstring in the style of the handwritten ones."""
     cards, known = [entry.card for entry in force.entries.values()], _words_of_all(force)
     texts = {"name": ("str", ""), **({} if "joint" in sides(force) else SIDES if "at" in known else POINTS)}
-    texts |= {word: WORDS.get(word, ("", "")) for word in (*sides(force), *known) if word not in ("first", "second")}
+    of_words = WORDS if _either(force).measure else WORDS | VECTOR
+    texts |= {word: of_words.get(word, ("", "")) for word in (*sides(force), *known) if word not in ("first", "second")}
     values = _placeholders(force)
     lines = [cards[0].summary, "", *wrapped(" ".join(dict.fromkeys(card.description for card in cards if card.description))),
              "Parameters", "----------"]

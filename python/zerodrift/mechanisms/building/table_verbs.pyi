@@ -1,6 +1,6 @@
 """Methods of `Mechanism` made from the core's tables; written by tests/support/stubs.py."""
 
-from ..._private.types import ArrayLike, Bindings, LawLike
+from ..._private.types import ArrayLike, Bindings, LawLike, Laws
 from ..elements import forces
 from ..elements.bodies import Body, Point
 from ..elements.joints import Joint
@@ -105,6 +105,10 @@ class TorsionSpring(forces.TorsionSpring):
 class Bushing(forces.Bushing):
     force: VectorMeasure3
     torque: VectorMeasure3
+    displacement: VectorMeasure3
+    velocity: VectorMeasure3
+    angle: VectorMeasure3
+    angular_velocity: VectorMeasure3
 
 class TableVerbs(Elements):
     def revolute(self, name: str, first: Side, second: Side, *, axis: ArrayLike | None = None, at: ArrayLike | None = None,
@@ -542,7 +546,7 @@ class TableVerbs(Elements):
         VectorMeasure3('joint.force')
         """
 
-    def spring(self, name: str, first: Side, second: Side, *, stiffness: ArrayLike | None = None, length: ArrayLike | None = None,
+    def spring(self, name: str, first: Side, second: Side, *, stiffness: LawLike | None = None, length: ArrayLike | None = None,
                damping: ArrayLike = 0.0, force: LawLike | None = None, of: Bindings | None = None) -> Spring:
         """Spring with a damper between two points.
 
@@ -581,7 +585,7 @@ class TableVerbs(Elements):
         <spring element: ground - body>
         """
 
-    def torsion_spring(self, name: str, joint: Joint | Measure | str, *, stiffness: ArrayLike | None = None,
+    def torsion_spring(self, name: str, joint: Joint | Measure | str, *, stiffness: LawLike | None = None,
                        angle: ArrayLike | None = None, damping: ArrayLike = 0.0, torque: LawLike | None = None,
                        of: Bindings | None = None) -> TorsionSpring:
         """Spring with a damper about the axis of a joint.
@@ -623,8 +627,9 @@ class TableVerbs(Elements):
         """
 
     def bushing(self, name: str, first: Side, second: Side, *, at: ArrayLike | None = None, stiffness: ArrayLike = 0.0,
-                damping: ArrayLike = 0.0, torsion: ArrayLike = 0.0, torsion_damping: ArrayLike = 0.0,
-                axis: ArrayLike | None = None, normal: ArrayLike | None = None) -> Bushing:
+                damping: ArrayLike = 0.0, torsion: ArrayLike = 0.0, torsion_damping: ArrayLike = 0.0, force: Laws | None = None,
+                torque: Laws | None = None, of: Bindings | None = None, axis: ArrayLike | None = None,
+                normal: ArrayLike | None = None) -> Bushing:
         """Joins two bodies softly, by springs and dampers along and about the axes of the first.
 
         It is slack as drawn. In space the angles about its directions are the components of the rotation vector: the unit axis
@@ -649,6 +654,17 @@ class TableVerbs(Elements):
             In N m/rad about its directions, at least 0.
         torsion_damping : float, in space or array_like (3,)
             In N m s/rad about its directions, at least 0.
+        force : callable or array_like of laws, in the place of `stiffness`
+            Force on the second body along its directions, in N, one number for each: ``force=lambda displacement, velocity:
+            -500 * displacement - 5 * velocity`` restores. Arrays of its own ``displacement``, ``velocity``, ``angle`` and
+            ``angular_velocity`` need no `of`, the last two are numbers in the plane; of the same as the torque of `motor`, and
+            an input of energy.
+        torque : callable or array_like of laws, in the place of `torsion`
+            Torque on the second body along its directions, in N m, one number for each: ``torque=lambda angle,
+            angular_velocity: -500 * angle - 5 * angular_velocity`` restores. As `force`, of the same as the torque of `motor`,
+            and an input of energy.
+        of : dict of str to measure
+            Measures that the callable receives, by argument name.
         axis : array_like (3,), optional
             In space its first direction in the drawing; it turns with the first body. Left out: that body's own axes.
         normal : array_like (3,), optional

@@ -50,8 +50,7 @@ class Drawing(NamedTuple):
     @property
     def laws(self) -> list[Any]:
         """User functions of elements that act, which measures do not."""
-        laws = (getattr(each, "law", None) for each in self.elements.values() if not isinstance(each, OwnMeasure))
-        return [law for law in laws if law is not None]
+        return [law for each in self.elements.values() if not isinstance(each, OwnMeasure) for law in each.laws.values()]
 
     def parts(self) -> list[Body]:
         """Bodies with their own coordinates: without the ground and particles that are attached to others."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, ClassVar, NamedTuple, cast
 
 import numpy as np
@@ -54,7 +55,7 @@ class Motor(Fixed):
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
-        return {} if self.law.constant is None else {self.drives: self.law.constant}
+        return self.constants
 
     def __repr__(self) -> str:
         return f"<motor {self.name}: {self.drives} of {placed(self)}>"
@@ -93,7 +94,7 @@ class Actuator(Fixed):
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
-        return {} if self.law.constant is None else {self.drives: self.law.constant}
+        return self.constants
 
     def __repr__(self) -> str:
         return f"<actuator {self.name}: {self.drives} between {self.first.body.name} and {self.second.body.name}>"
@@ -178,6 +179,22 @@ class Force(TableForce):
 
     def __repr__(self) -> str:
         return f"<force {self.name} at {self.point.body.name}>"
+
+
+class Gravity(Fixed):
+    """Gravity that user functions give.
+
+    Attributes
+    ----------
+    laws : dict of str to Law
+        Components in m/s^2 in the drawing's axes, by axis.
+    """
+
+    kind = name = "gravity"
+    laws: Mapping[str, Law] = MappingProxyType({})
+
+    def __init__(self, laws: Mapping[str, Law]) -> None:
+        self.laws = laws
 
 
 class Torque(TableForce):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -24,6 +25,17 @@ class Fixed:
     def measured_name(self) -> str:
         """First part of the names of its measures."""
         return self.name
+
+    @property
+    def laws(self) -> Mapping[str, Any]:
+        """User functions by the argument that takes each."""
+        law = getattr(self, "law", None)
+        return {} if law is None else {getattr(self, "drives", "law"): law}
+
+    @property
+    def constants(self) -> dict[str, float]:
+        """User functions that are plain numbers, likewise."""
+        return {path: law.constant for path, law in self.laws.items() if law.constant is not None}
 
     def __setattr__(self, name: str, value: Any) -> None:
         if name[0] != "_":

@@ -75,9 +75,9 @@ def scalar(quantity: str, doc: str) -> Measure:
     return property(lambda self: Measure(f"{self.measured_name}.{quantity}"), doc=doc)     # type: ignore[return-value]
 
 
-def vector(quantity: str, doc: str) -> VectorMeasure3:
+def vector(quantity: str, doc: str, in_plane: type[Measure] = VectorMeasure) -> VectorMeasure3:
     """Property of an element for its vector measure of that name."""
-    def measure(self: Any) -> VectorMeasure:
-        return (VectorMeasure3 if getattr(self, "dimension", 2) == 3 else VectorMeasure)(f"{self.measured_name}.{quantity}")
+    def measure(self: Any) -> Measure:
+        return (VectorMeasure3 if getattr(self, "dimension", 2) == 3 else in_plane)(f"{self.measured_name}.{quantity}")
 
     return property(measure, doc=doc)       # type: ignore[return-value]

@@ -15,7 +15,7 @@ from . import columns
 from .bodies import Body, Point
 from .immutable import Fixed
 from .joints import Joint, class_of
-from .measures import Measure, VectorMeasure3, scalar, vector
+from .measures import Measure, scalar, vector
 from .numbers import AS_GIVEN, Numbers
 from .user_functions import Law
 
@@ -43,9 +43,9 @@ def is_between_points(entry: ElementKind) -> bool:
 
 
 def paths(entry: ElementKind) -> tuple[tuple[str, ...], ...]:
-    """Paths of stiffness and damping for each marker quantity; those of angles beside lengths are torsion and torsion_damping."""
-    along = ("stiffness", "damping")
-    about = ("torsion", "torsion_damping") if lengths(entry) else along
+    """Paths of stiffness, damping, law and value for each marker quantity; angles beside lengths have names of their own."""
+    along = "stiffness", "damping", "force", "displacement"
+    about = ("torsion", "torsion_damping", "torque", "angle") if lengths(entry) else along
     groups = (along, lengths(entry)), (about, len(entry.quantities) - lengths(entry))
     return tuple(tuple(f"{word}.{axis}" if size > 1 else word for word in words)
                  for words, size in groups for axis in AXES[:size])
@@ -57,16 +57,16 @@ def parameters(entry: ElementKind) -> dict[str, tuple[str, ...]]:
     if not entry.is_spring:
         return found
     for each in paths(entry):
-        for path in each:
+        for path in each[:2]:
             word = path.partition(".")[0]
             found[word] = (*found.get(word, ()), path)
     slack = "angle" if entry.at_joint else "length" if any(each.zero == "length" for each in entry.quantities) else None
     return {"stiffness": found.pop("stiffness"), **({slack: (slack,)} if slack else {}), **found}
 
 
-def law_word(entry: ElementKind) -> str:
-    """Argument that takes the law of an element: "force" or "torque" of a spring, "" of a bushing, "value" of others."""
-    return entry.measure or "" if entry.is_spring else "value"
+def law_words(entry: ElementKind) -> tuple[str, ...]:
+    """Arguments that take the law of an element: "force" or "torque" of a spring, both of a bushing, "value" of others."""
+    return ((entry.measure,) if entry.measure else ("force", "torque")) if entry.is_spring else ("value",)
 
 
 LENGTH = {"length": scalar("length", "The distance of its ends, in m."),
@@ -79,17 +79,20 @@ def _measures(entry: ElementKind) -> dict[str, Any]:
         found: dict[str, Any] = {
             "force": vector("force", "Force of the first body on the second, at the second's point, in the drawing's axes, "
                             "in N."),
-            "torque": MOMENT}
+            "torque": vector("torque", "The moment that the first body exerts on the second, about the second's point, in N m; "
+                             "in space a vector in the drawing's axes.", Measure),
+            "displacement": vector("displacement", "Displacement of the second body's point along its directions, in m."),
+            "velocity": vector("velocity", "The rate of `displacement`, in m/s."),
+            "angle": vector("angle", "Angle of the second body against the first, in rad; in space the components of the "
+                            "rotation vector along its directions.", Measure),
+            "angular_velocity": vector("angular_velocity", "Angular velocity of the second body against the first, in rad/s; "
+                                       "in space along its directions.", Measure),
+            "laws": MappingProxyType({})}       # by path, such as "force.x"
     else:
         where = ("what acts on the joint's second body" if entry.at_joint else "positive where it pulls, its damping included"
                  if entry.sign < 0 else "positive where it drives the marker quantity up")
         found = {entry.measure: scalar(entry.measure, f"Its {entry.measure} in {UNITS[entry.measure]}, {where}.")}
     return {**found, **LENGTH} if has(entry, "distance") else found
-
-
-MOMENT = property(lambda self: (VectorMeasure3 if self.dimension == 3 else Measure)(f"{self.measured_name}.torque"),
-                  doc="The moment that the first body exerts on the second, about the second's point, in N m; in space a vector "
-                  "in the drawing's axes.")
 
 
 # ---- elements ----
@@ -110,7 +113,7 @@ class TableForce(Fixed):
     law : Law or None
         The force or torque of an element that is not a spring, or of a spring in the place of its stiffness.
     drives : str
-        Argument that takes its law: "stiffness" of a spring, or that of `law_word`.
+        Argument that takes its law: "stiffness" of a spring, or one of `law_words`.
     axis : ndarray (2,) or None
         In the plane, in the first body's frame.
     frames : tuple of ndarray (3, 3), or None
@@ -180,12 +183,12 @@ class TableForce(Fixed):
         """Marker quantities it acts along."""
         return self.row.quantities
 
-    @property
-    def own(self) -> str:
-        """Measure along which the law of a spring acts; empty for others, and for a stiffness."""
-        if not self.row.is_spring or self.drives == "stiffness":
+    def own(self, acting: str, value: str) -> str:
+        """Measure along which a law acts, with the `value` of `paths`; empty for a stiffness, and without a spring."""
+        if not self.row.is_spring or acting == "stiffness":
             return ""
-        return f"{self.joint.name}.{self.which or 'angle'}" if self.joint else f"{self.name}.length"
+        of = self.which or "angle" if self.joint else "length" if self.row.measure else value.replace("angle", "turn")
+        return f"{(self.joint or self).name}.{of}"
 
     def length_with(self, numbers: Numbers) -> float:
         """Unstressed length; if not given, the distance in the drawing."""
@@ -195,8 +198,7 @@ class TableForce(Fixed):
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
-        law = {} if self.law is None or self.law.constant is None else {self.drives: self.law.constant}
-        return law | {path: self.length_with(now) if path == "length" else self.values[path]
+        return self.constants | {path: self.length_with(now) if path == "length" else self.values[path]
                       for word, each in parameters(self.row).items() for path in each
                       if path in self.values or (path == "length" and self.drives == "stiffness")}
 

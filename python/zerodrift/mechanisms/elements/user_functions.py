@@ -55,7 +55,7 @@ class Law:
         given = recognised(given)
         if hasattr(given, "free_symbols"):
             given = self._read(given)
-        if isinstance(given, Formula | Expression):
+        if isinstance(given, Formula | Expression | Component):
             self._names = [self._wanted(name, bound, parameters) for name in sorted(given.names)]
             self.formula, self._function = (given, None) if isinstance(given, Formula) else (None, given)
         elif callable(given):
@@ -259,6 +259,30 @@ class Expression:
 
     def __getstate__(self) -> dict[str, Any]:
         return {"expression": self.expression}
+
+
+class Component:
+    """Function of vectors as one of their components: of its numbers that of this index, or its one number without an index.
+
+    `wanted` has its arguments, each with a name, or with the names of a vector's components; it returns so many numbers.
+    """
+
+    def __init__(self, function: Callable[..., Any], wanted: Mapping[str, Any], index: int | None, size: int) -> None:
+        self.function, self.wanted, self.index, self.size = function, wanted, index, size
+
+    @property
+    def names(self) -> set[str]:
+        """Names of all components."""
+        return {name for names in self.wanted.values() for name in ([names] if isinstance(names, str) else names)}
+
+    def __call__(self, **x: Any) -> Any:
+        result = self.function(**{argument: x[names] if isinstance(names, str) else np.array([x[name] for name in names])
+                                  for argument, names in self.wanted.items()})
+        if self.index is None:
+            return result
+        if np.shape(result) != (self.size,):
+            raise WrongValue(f"the function must return {self.size} numbers, not {result!r}", "shape")
+        return result[self.index]
 
 
 class InputLaw:

@@ -21,7 +21,7 @@ class Call:
     Reactions that it reads follow the marker quantities.
     """
 
-    sign = 1        # factor of a generalized force
+    sign: float = 1     # factor of a generalized force
 
     def __init__(self, law: Law | InputLaw, picks: Sequence[tuple[int, bool]], parameters: Mapping[str, float]) -> None:
         self.law, self.picks, self.parameters = law, tuple(picks), parameters
@@ -60,7 +60,7 @@ class ForceLaw(Call):
     """Generalized force: a force or torque, times `sign`."""
 
     def __init__(self, law: Law | InputLaw, picks: Sequence[tuple[int, bool]], parameters: Mapping[str, float],
-                 sign: int = 1) -> None:
+                 sign: float = 1) -> None:
         super().__init__(law, picks, parameters)
         self.sign = sign
 

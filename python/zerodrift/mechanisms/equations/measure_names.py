@@ -8,11 +8,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..._private.gateway import Variable
 from ..._private.rotations import COMPONENTS
 from ...errors import WrongValue
 from ..elements.bodies import Body, Link, Point
+from ..elements.forces import Bushing
 from ..elements.joints import Joint, is_hinge
 from ..elements.space_joints import SpaceJoint, is_at_point, speeds
+from ..elements.table_forces import paths
 from . import transmission
 
 RATES = {"velocity": "position", "angular_velocity": "angle"}      # and "speed" of a joint's coordinate
@@ -35,6 +38,8 @@ def reading(name: str, elements: Mapping[str, Any]) -> Reading | None:
     if element is None or not rest:
         return None
     quantity, *component = rest
+    if isinstance(element, Bushing):
+        return _of_bushing(element, quantity, component)
     if getattr(element, "dimension", 2) == 3:
         return _in_space(owner, element, quantity, component)
     base = getattr(element, "coordinate", None) if quantity == "speed" else RATES.get(quantity, quantity)
@@ -47,6 +52,14 @@ def reading(name: str, elements: Mapping[str, Any]) -> Reading | None:
         return Reading(tuple(f"{owner}.position.{axis}" for axis in axes), base != quantity) if set(axes) <= {"x", "y"} and (
             len(component) <= 1) else None
     return None if component else Reading((f"{owner}.{base}",), base != quantity)
+
+
+def _of_bushing(bushing: Bushing, quantity: str, component: list[str]) -> Reading | None:
+    """Displacement, angle, and their rates along the directions of a bushing."""
+    base = {"velocity": "displacement", "angular_velocity": "angle"}.get(quantity, quantity)
+    wanted, word = ".".join((base, *component)), "turn" if quantity == "angular_velocity" else base
+    found = [name.replace(base, word) for *_, name in paths(bushing.row) if f"{name}.".startswith(f"{wanted}.")]
+    return Reading(tuple(f"{bushing.name}.{name}" for name in found), base != quantity) if found else None
 
 
 def is_dynamic(name: str, element: Any) -> bool:
@@ -78,6 +91,8 @@ def rates_of(element: Any) -> dict[str, str]:
     """Measurable rates of an element in space, with the quantity that each is the rate of."""
     if isinstance(element, SpaceJoint):
         return {**speeds(element.row), **({"velocity": "position"} if is_at_point(element.row) else {})}
+    if isinstance(element, Bushing):
+        return {"velocity": "displacement", "angular_velocity": "turn"}
     if isinstance(element, Body | Point):
         spin = {"angular_velocity": "spin"} if isinstance(element, Body) and element.turns else {}
         return {"velocity": "position", **spin}
@@ -129,7 +144,7 @@ def readable(element: Any) -> list[str]:
     if getattr(element, "dimension", 2) == 3:
         own = [f"{named}.{each}" for each in (*quantities(element), *rates_of(element))]
         return own + [f"{named}.{point}.{each}" for point in _points(element) for each in ("position", "velocity")]
-    rates = {"position": "velocity", "angle": "angular_velocity"}
+    rates = {"position": "velocity", "angle": "angular_velocity", "displacement": "velocity"}
     found = []
     for quantity in quantities(element):
         rate = "speed" if quantity == getattr(element, "coordinate", None) else rates.get(quantity)
@@ -149,9 +164,29 @@ def quantities(element: Any) -> tuple[str, ...]:
     if isinstance(element, Joint):
         place = ("position",) if is_hinge(element.row) else ()
         return (element.coordinate, *place) if element.coordinate and has_coordinate(element) else place
+    if isinstance(element, Bushing):
+        return "displacement", "angle"
     return ("length",) if getattr(element, "coordinate", None) == "length" else ()
 
 
 def has_coordinate(joint: Joint) -> bool:
     """True if the joint has a measurable coordinate; the angle at a particle is not one."""
     return joint.coordinate is not None and (joint.coordinate != "angle" or all(body.turns for body in joint.bodies))
+
+
+def constraint_names(tables: Any, core: Any) -> tuple[Variable, ...]:
+    """Names and units of the constraints: the joint and its marker quantity, or the drive or coupling."""
+    named = []
+    for row in core.rows:
+        if row.owner == "relation":
+            named.append(Variable(tables.relation_names[row.number], ""))
+            continue
+        joint = tables.joints[row.number]
+        if isinstance(joint, SpaceJoint):
+            named.append(joint.row_named(row.component))
+            continue
+        rows = joint.row.rows
+        quantity = rows[row.component].quantity
+        unit = "rad" if quantity == "angle" else "m"
+        named.append(Variable(joint.name if len(rows) == 1 else f"{joint.name}.{quantity}", unit))
+    return tuple(named)

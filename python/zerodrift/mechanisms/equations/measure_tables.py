@@ -14,7 +14,7 @@ from ..._private.gateway.mechanisms.core import MechanismCore
 from ..._private.gateway.mechanisms.element_tables import OutputSpec
 from ...errors import WrongValue
 from ..elements.bodies import Body, Link, Point
-from ..elements.forces import Actuator
+from ..elements.forces import Actuator, Bushing
 from ..elements.joints import holds_angle, is_hinge
 from ..elements.space_joints import SpaceJoint, acceleration_of, has_torque, is_at_point, speeds
 from ..elements.table_forces import TableForce
@@ -125,6 +125,11 @@ def _lengths(tables: Tables) -> Iterator[Position]:
     for each in (*tables.drawing.of(Actuator), *tables.drawing.of(TableForce)):
         if each.coordinate:
             yield Position(f"{each.name}.length", "m", f"{each.name}.speed", None, partial(_one, tables.length_quantity, each))
+    for bushing in tables.drawing.of(Bushing):
+        name = bushing.name
+        for value, unit, rate in (("displacement", "m", "velocity"), ("angle", "rad", ""), ("turn", "rad", "angular_velocity")):
+            yield Position(f"{name}.{value}" if value != "turn" else None, unit, f"{name}.{rate}" if rate else None, None,
+                           partial(tables.bushing_quantities, bushing, value))
 
 
 def _one(of: Callable[..., Any], *arguments: Any) -> tuple[Any]:

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ..._private.gateway import Variable
 from ..._private.gateway.mechanisms import plane as entries
 from ..._private.gateway.mechanisms.core import MechanismCore
 from ..._private.gateway.mechanisms.element_tables import OutputSpec, component_places
@@ -17,12 +16,11 @@ from ..._private.gateway.mechanisms.plane import PlaneCore, Quantity
 from ..elements import columns
 from ..elements.bodies import Body, Particle, Point
 from ..elements.drawing import Drawing, Inertias
-from ..elements.forces import Actuator, Motor
+from ..elements.forces import Actuator, Bushing, Gravity, Motor
 from ..elements.frames import turned
 from ..elements.joints import Coupling, Joint
 from ..elements.numbers import AS_GIVEN, Numbers
 from ..elements.own_measures import OwnMeasure
-from ..elements.space_joints import SpaceJoint
 from ..elements.table_forces import UNITS, TableForce, lengths, paths
 from . import function_calls, transmission
 from .measure_names import checked_reading, has_coordinate
@@ -62,7 +60,7 @@ class Tables:
         self.inboard = self.tree() if in_tree else [-1] * len(self.parts)
         self.joint_rows = [self._joint(joint) for joint in self.joints]
         self._damp()
-        for kind, add in ((Motor, self._motor), (Actuator, self._actuator), (Coupling, self._coupling)):
+        for kind, add in ((Motor, self._motor), (Actuator, self._actuator), (Coupling, self._coupling), (Gravity, self._weights)):
             for element in drawing.of(kind):
                 add(element)
         for element in sorted(drawing.of(TableForce), key=lambda element: element.row.number):
@@ -164,7 +162,18 @@ class Tables:
     def _quantity_of(self, name: str) -> int:
         """Index of the marker quantity of a component of a position, such as "crank.end.position.x", added at first use."""
         known = self.quantity_number.get(name)
-        return self._quantity(name, self._reading_of(name)) if known is None else known
+        if known is not None:
+            return known
+        element, word, *axis = name.split(".")
+        bushing = self.drawing.elements[element]
+        return self._quantity(name, self.bushing_quantities(bushing, word)["xyz".index(*axis or "x")] if isinstance(
+            bushing, Bushing) else self._reading_of(name))
+
+    def bushing_quantities(self, bushing: Bushing, word: str) -> tuple[Any, ...]:
+        """Marker quantities of a bushing: "displacement", "angle", or "turn", whose rate is the angular velocity."""
+        known, n = self._element_quantities(bushing), lengths(bushing.row)
+        turns = [each._replace(kind="turn") if each.kind == "rotation" else each for each in known[n:]]
+        return tuple(known[:n] if word == "displacement" else turns if word == "turn" else known[n:])
 
     def _reading_of(self, name: str) -> Any:
         owner, _, quantity = name.rpartition(".")
@@ -303,20 +312,28 @@ class Tables:
 
     # ---- forces ----
 
-    def _generalized_force(self, parameter: str, quantity: int, element: Any, sign: int = 1, **more: Any) -> None:
+    def _generalized_force(self, path: str, quantity: int, element: Any, sign: float = 1, **more: Any) -> None:
         """Add a generalized force by a number or a user function, times `sign`, with a damping and at a joint by `more`."""
-        if element.law.constant is not None:
-            value = sign * self.numbers(element, parameter, element.law.constant)
+        law = element.laws[path]
+        if law.constant is not None:
+            value = sign * self.numbers(element, path, law.constant)
             self.forces.append(entries.GeneralizedForce("constant", quantity, value=value, **more))
             return
-        is_stiffness = element.drives == "stiffness"
-        quantities, picks = self._inputs(element.law.measures, [quantity] * is_stiffness)
-        reads = tuple(dict.fromkeys(element.law.reactions.values()))
-        picks += [(len(quantities) + reads.index(name), False) for name in element.law.reactions.values()]
-        row = self.laws.add((function_calls.Stiffness if is_stiffness else function_calls.ForceLaw)(
-            element.law, picks, self.parameters, sign))
-        self.forces.append(entries.GeneralizedForce("law", quantity, law=row, inputs=quantities, reads=reads,
-                                                    what=element.law.what, **more))
+        kind, first = (function_calls.Stiffness, [quantity]) if path == "stiffness" else (function_calls.ForceLaw, [])
+        quantities, picks = self._inputs(law.measures, first)
+        reads = tuple(dict.fromkeys(law.reactions.values()))
+        picks += [(len(quantities) + reads.index(name), False) for name in law.reactions.values()]
+        row = self.laws.add(kind(law, picks, self.parameters, sign))
+        given = {"law": row, "inputs": quantities, "reads": reads, "what": law.what, **more}
+        self.forces.append(entries.GeneralizedForce("law", quantity, **given))
+
+    def _weights(self, gravity: Gravity) -> None:
+        """Add the weight of each body, at its mass centre."""
+        for body in self.parts:
+            for axis, quantity in zip(gravity.laws, self.place_quantities(body), strict=True):
+                centre = quantity._replace(point2=(0.0,) * self.drawing.dimension)
+                number = self._quantity(f"{body.name} weight {axis}", centre)
+                self._generalized_force(axis, number, gravity, float(self.inertias.of[body.name][0]))
 
     def _table_force(self, element: TableForce) -> None:
         """Add the generalized force along each marker quantity of an element, and its measures."""
@@ -325,19 +342,22 @@ class Tables:
         stiffnesses: Any = element.coupled
         coupled = [] if stiffnesses is None else [self._quantity(f"{element.name} {i}", each) for i, each in every]
         for i, quantity in every:
-            stiffness, damping = (self.numbers(element, path, element.values.get(path, 0.0)) for path in paths(element.row)[i])
-            if element.law is not None:
-                number = self._quantity_of(element.own) if element.own else self._quantity(f"{element.name} {i}", quantity)
-                sign = -1 if element.drives == "stiffness" else element.row.sign
-                self._generalized_force(element.drives, number, element, sign, joint=joint, damping=damping)
-                continue
-            number = coupled[i] if coupled else self._quantity(f"{element.name} {i}", quantity)
-            self.forces += [entries.GeneralizedForce("spring", number, float(stiffnesses[i, j]), inputs=[other])
-                            for j, other in enumerate(coupled) if stiffnesses[i, j]]
-            if quantity.kind == "rotation":         # damped by the angular velocity, not by the rate of the rotation vector
-                self.forces.append(entries.GeneralizedForce("spring", number, stiffness))
-                number, stiffness = self._quantity(f"{element.name} {i} turn", quantity._replace(kind="turn")), 0.0
-            self.forces.append(entries.GeneralizedForce("spring", number, stiffness, damping, joint=joint))
+            path, damped, acting, value = paths(element.row)[i]
+            stiffness, damping = (self.numbers(element, each, element.values.get(each, 0.0)) for each in (path, damped))
+            acting = element.drives if element.law else acting
+            own = element.own(acting, value) if acting in element.laws else ""
+            name = f"{element.name} {i}"
+            number = coupled[i] if coupled else self._quantity_of(own) if own else self._quantity(name, quantity)
+            if acting in element.laws:
+                sign = -1 if acting == "stiffness" else element.row.sign
+                self._generalized_force(acting, number, element, sign, joint=joint, damping=damping)
+            else:
+                self.forces += [entries.GeneralizedForce("spring", number, float(stiffnesses[i, j]), inputs=[other])
+                                for j, other in enumerate(coupled) if stiffnesses[i, j]]
+                if quantity.kind == "rotation":     # damped by the angular velocity, not by the rate of the rotation vector
+                    self.forces.append(entries.GeneralizedForce("spring", number, stiffness))
+                    number, stiffness = self._quantity(f"{name} turn", quantity._replace(kind="turn")), 0.0
+                self.forces.append(entries.GeneralizedForce("spring", number, stiffness, damping, joint=joint))
             size = len(self.forces) - index if i < lengths(element.row) else size
         self.observed += self._efforts(element, index, size)
 
@@ -378,21 +398,3 @@ def _freedoms(joint: Joint) -> tuple[int, int]:
 
 def _pair(vector: np.ndarray) -> tuple[float, float]:
     return float(vector[0]), float(vector[1])
-
-
-def constraint_names(tables: Tables, core: MechanismCore) -> tuple[Variable, ...]:
-    """Names and units of the constraints: the joint and its marker quantity, or the drive or coupling."""
-    named = []
-    for row in core.rows:
-        if row.owner == "relation":
-            named.append(Variable(tables.relation_names[row.number], ""))
-            continue
-        joint = tables.joints[row.number]
-        if isinstance(joint, SpaceJoint):
-            named.append(joint.row_named(row.component))
-            continue
-        rows = joint.row.rows
-        quantity = rows[row.component].quantity
-        unit = "rad" if quantity == "angle" else "m"
-        named.append(Variable(joint.name if len(rows) == 1 else f"{joint.name}.{quantity}", unit))
-    return tuple(named)

@@ -14,9 +14,10 @@ from ...errors import WrongValue, sentence
 from ..building.table_force_verbs import NEEDED, sides, words
 from ..building.table_joint_verbs import verb
 from ..building.table_verbs import FORCES, PLANE
+from ..elements.forces import Gravity
 from ..elements.immutable import amend
 from ..elements.joints import Joint
-from ..elements.table_forces import TableForce, law_word, parameters
+from ..elements.table_forces import TableForce, parameters, paths
 from .expressions_json import from_json
 from .space_from_json import IN_SPACE, frames_from_json, keep_rotations
 from .to_json import VERSION, WHAT
@@ -224,10 +225,17 @@ def _measure(m: Any, name: str, *, law: Any, unit: Any) -> None:
     m.measure(name, value, of=of, unit=unit)
 
 
+def _gravity(m: Any, name: str, *, laws: Any) -> None:
+    checks.choice("the name of gravity", name, (Gravity.name,))
+    if [*laws] != [*"xyz"[:m.dimension]]:
+        raise WrongValue(f"laws of gravity must be of {m.dimension} axes, not {checks.shown(laws)}", "unreadable-file")
+    m._add(Gravity({axis: m._law(f"gravity.{axis}", *law_and_of(law, axis), reactions=True) for axis, law in laws.items()}))
+
+
 def _table_force(force: type[TableForce], dimension: int) -> Callable[..., None]:
     """Reader of a kind of force element whose method is made from the core's tables."""
     entry = force.entries[dimension]
-    law, known = law_word(entry), words(entry)
+    law, known = entry.measure or "" if entry.is_spring else "value", words(entry)
 
     def make(m: Any, name: str, **given: Any) -> None:
         ends = [given.pop(side) for side in sides(force)]
@@ -245,13 +253,19 @@ def _table_force(force: type[TableForce], dimension: int) -> Callable[..., None]
         for word in (law, "stiffness"):
             if isinstance(given.get(word), Mapping):
                 given[word], given["of"] = law_and_of(given[word], word)
-        amend(getattr(m, force.kind)(name, *places, **given), **stored)
+        laws = given.pop("laws", {})
+        made = getattr(m, force.kind)(name, *places, **given)
+        for path, each in laws.items():
+            checks.choice("a path of laws", path, [acting for *_, acting, _ in paths(entry)])
+            stored.setdefault("laws", {})[path] = m._law(f"{path} of bushing {name!r}", *law_and_of(each, path), reactions=True)
+        amend(made, **stored)
 
     place = ("frames" if dimension == 3 else "axis",) if entry.axes else ()
     wanted = (*sides(force), *place, *parameters(entry), *([law] if law else ()))
     vars(make)["__signature__"] = inspect.Signature([
         inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, default=NEEDED if known.get(word, 0.0) is not None else None)
-        for word in wanted] + [inspect.Parameter("coupled", inspect.Parameter.KEYWORD_ONLY, default=None)] * (entry.axes == 3))
+        for word in wanted] + [inspect.Parameter("coupled", inspect.Parameter.KEYWORD_ONLY, default=None)] * (entry.axes == 3)
+        + [inspect.Parameter("laws", inspect.Parameter.KEYWORD_ONLY, default={})] * (not law))
     return make
 
 
@@ -263,6 +277,6 @@ MADE: dict[str, Callable[..., None]] = {
     "body": _body, "link": _link, "particle": _particle, "point": _point, "rolling": _rolling,
     "gear": _gear, "rack_pinion": _rack_pinion, "coupler": _coupler,
     "constraint": _constraint, "nonholonomic": _nonholonomic, "cam": _cam,
-    "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque, "measure": _measure, **_table_forces(2),
-    **{kind: _by_row(joint) for kind, joint in PLANE.items()}}
+    "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque, "measure": _measure, "gravity": _gravity,
+    **_table_forces(2), **{kind: _by_row(joint) for kind, joint in PLANE.items()}}
 MADE_IN_SPACE = {**MADE, **IN_SPACE, **_table_forces(3)}

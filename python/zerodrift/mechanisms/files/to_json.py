@@ -132,18 +132,23 @@ def _measure(measure: Any, drawing: Drawing) -> dict[str, Any]:
     return {"law": law_to_json(measure.law), "unit": measure.unit}
 
 
+def _gravity(gravity: Any, drawing: Drawing) -> dict[str, Any]:
+    return {"laws": {axis: law_to_json(law) for axis, law in gravity.laws.items()}}
+
+
 def _table_force(force: TableForce, drawing: Drawing) -> dict[str, Any]:
     place: dict[str, Any] = sides(force, drawing) if force.joint is None else {"joint": placed(force)}
     if force.axis is not None:
         place["axis"] = numbers(force.axis)
     if force.frames is not None:
         place["frames"] = [numbers(frame) for frame in force.frames]
-    return {**place, **force.given(), **({force.drives: law_to_json(force.law)} if force.law else {})}
+    laws = {path: law_to_json(law) for path, law in force.laws.items()}
+    return {**place, **force.given(), **(laws if force.row.measure else {"laws": laws} if laws else {})}
 
 
 WRITTEN: dict[str, Callable[[Any, Drawing], dict[str, Any]]] = {
     **dict.fromkeys(JOINTS, _joint), **dict.fromkeys((kind for kind in FORCES if kind in ELEMENTS), _table_force),      # type: ignore[has-type]
     "body": _body, "link": _link, "particle": _particle, "point": _point, "gear": _linear,
     "rack_pinion": _linear, "coupler": _coupling, "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
-    "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque, "measure": _measure}
+    "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque, "measure": _measure, "gravity": _gravity}
 WRITTEN_IN_SPACE = WRITTEN | dict.fromkeys(FORCES, _table_force) | IN_SPACE

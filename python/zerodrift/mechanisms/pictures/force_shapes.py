@@ -57,7 +57,7 @@ def _between(element: Any, posed: Posed) -> Iterator[Shape]:
         yield Shape("cylinder", ends, element.name)
     elif element.row.is_spring and has(element.row, "distance"):
         yield from _spring(ends, element.name, *(posed.parts.numbers(element, each, element.values.get(each, 1.0))
-                                                 for each in paths(element.row)[0]))
+                                                 for each in paths(element.row)[0][:2]))
     elif element.row.is_spring:
         yield Shape("bushing", second[None], element.name)
     elif element.axis is None and has(element.row, "angle"):

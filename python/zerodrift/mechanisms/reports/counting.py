@@ -18,8 +18,8 @@ from ..assembly.start import Starting
 from ..elements.drawing import Drawing
 from ..elements.forces import Actuator, Motor
 from ..elements.numbers import AS_GIVEN
+from ..equations.measure_names import constraint_names
 from ..equations.space_tables import SpaceTables, tables_of
-from ..equations.tables import constraint_names
 from .unsaid_rates import moving_unsaid
 
 DEPENDENT = 1e-9        # of a constraint's own size: residual norm of a redundant one

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import ZerodriftError, sentence
+from ...errors import sentence
 from ..elements.bodies import Point
 from ..elements.drawing import Drawing
-from ..elements.forces import Actuator, Force, Motor
+from ..elements.forces import Actuator, Force, Gravity, Motor
 from ..elements.joints import Joint
 from ..elements.numbers import AS_GIVEN
 from ..elements.table_forces import TableForce, placed
@@ -27,8 +27,9 @@ def headline(drawing: Drawing) -> str:
     bodies, joints = len(drawing.parts()), len(drawing.of(Joint))
     known = [*sorted(drawing.of(TableForce), key=lambda force: force.row.number), *drawing.of(Motor), *drawing.of(Actuator)]
     forces = [_several(count, kind.replace("_", " ")) for kind, count in Counter(each.kind for each in known).items()]
-    gravity = f"gravity ({', '.join(f'{each:g}' for each in drawing.gravity)})" if drawing.gravity.any() else "no gravity"
-    said = f"{', '.join(forces)}, {gravity}" if forces else f"no forces but {gravity}" if drawing.gravity.any() else "no forces"
+    gravity = f"gravity ({', '.join(f'{each:g}' for each in drawing.gravity)})" if drawing.gravity.any() else (
+        "varying gravity" if drawing.of(Gravity) else "no gravity")
+    said = f"{', '.join(forces)}, {gravity}" if forces else "no forces" if gravity == "no gravity" else f"no forces but {gravity}"
     where = "space" if drawing.dimension == 3 else "plane"
     return f"<Mechanism {drawing.name}: {where}, {_several(bodies, 'body', 'bodies')}, {_several(joints, 'joint')}; {said}>"
 
@@ -39,8 +40,8 @@ def report(drawing: Drawing) -> str:
         return f"{headline(drawing)}\n nothing moves yet"
     try:
         counted = count(drawing)
-    except (ZerodriftError, ValueError) as error:
-        return f"{headline(drawing)}\n it cannot start: {sentence(error)}"
+    except Exception as error:      # also of the user's functions
+        return f"{headline(drawing)}\n it cannot start: {'; '.join([sentence(error), *getattr(error, '__notes__', ())])}"
     lines = [headline(drawing), f" {_freedom(drawing, counted)}; {_rows(counted)}"]
     if counted.is_of_many and counted.redundant:
         lines.append(" undetermined reactions are not listed for so many constraints")
@@ -55,7 +56,7 @@ def report(drawing: Drawing) -> str:
               for force in drawing.of(Force) if isinstance(force.against, Point)]
     if drawing.parameters:
         lines.append(f" parameters: {_listed([f'{name} = {value:g}' for name, value in drawing.parameters.items()])}")
-    laws = [f"{law.what} ({law.kind})" for each in drawing.elements.values() if (law := getattr(each, "law", None)) and law.kind]
+    laws = [f"{law.what} ({law.kind})" for each in drawing.elements.values() for law in each.laws.values() if law.kind]
     if laws:
         lines.append(f" laws: {_listed(laws)}")
     found = cost.cost(tables_of(drawing, AS_GIVEN, in_tree=True), exact=True)
