@@ -46,7 +46,7 @@ class Gradient:
         elif node.kind == "product":
             for base, exponent in node.content:
                 if slopes := self(base):
-                    _add(parts, slopes, exponent, graph, graph.with_less(node, base))
+                    _add(parts, slopes, exponent, graph, graph.product([*node.content, (base, -1)]))
         elif node.kind == "call":
             function, arguments = node.content
             for k, argument in enumerate(arguments):
@@ -71,7 +71,7 @@ class Gradient:
 def _add(parts: dict[Node, Terms], slopes: Slopes, factor: Number, graph: Graph, outer: Node) -> None:
     """Add the derivatives of an inner node times the outer derivative, by the chain rule."""
     for leaf, slope in slopes.items():
-        parts[leaf].append((graph.chained(outer, slope), factor))
+        parts[leaf].append((graph.chained([(outer, 1)], slope), factor))
 
 
 class Hessian:

@@ -7,7 +7,7 @@ That is enough for the terms of Lagrange's equations that cancel to do so.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -146,23 +146,21 @@ class Graph:
         number = exponent.content[0]
         return self.product([(base, int(number) if number == int(number) else number)])
 
-    def with_less(self, node: Node, base: Node) -> Node:
-        """A product with the exponent of a factor less one."""
-        return self.product((each, exponent - (each is base)) for each, exponent in node.content)
-
-    def chained(self, outer: Node, rate: Node) -> Node:
+    def chained(self, factors: Sequence[tuple[Node, Number]], rate: Node) -> Node:
         """Product of an outer derivative and a rate; zero in cases of the rate that are, where the outer one may be infinite."""
+        if not _has_pole(factors):
+            return self.product([*factors, (rate, 1)])
         if rate.kind == "sum" and len(rate.content) == 1:
             (rate, number), = rate.content
-            return self.sum([(self.chained(outer, rate), number)])
+            return self.sum([(self.chained(factors, rate), number)])
         for choice, exponent in rate.content if rate.kind == "product" else ((rate, 1),):
             if choice.kind == "choice" and exponent == 1:
                 cases, otherwise = choice.content
                 if self.zero in (otherwise, *(value for _, value in cases)):
-                    more = outer if rate is choice else self.times(outer, self.with_less(rate, choice))
+                    more = [*factors, (rate, 1), (choice, -1)]
                     return self.choice(tuple((condition, self.chained(more, value)) for condition, value in cases),
                                        self.chained(more, otherwise))
-        return self.times(outer, rate)
+        return self.product([*factors, (rate, 1)])
 
     # ---- all other kinds ----
 
@@ -221,6 +219,14 @@ class Graph:
         return term
 
 
+def _has_pole(factors: Iterable[tuple[Node, Number]]) -> bool:
+    """True of factors that may be infinite: negative powers, and powers and logarithms that are calls."""
+    return any(exponent < 0 or (base.kind == "call" and base.content[0].__name__ in ("Pow", "log"))
+               or (base.kind == "product" and _has_pole(base.content))
+               or (base.kind == "sum" and len(base.content) == 1 and _has_pole([(base.content[0][0], 1)]))
+               for base, exponent in factors)
+
+
 def power(base: Number, exponent: Number) -> Number:
     """A number to an exponent, exact where it can be."""
     if isinstance(base, int) and exponent == int(exponent):
@@ -270,7 +276,7 @@ class Derivative(_NodeFunction):
             case "call":
                 function, arguments = node.content
                 rates = [(k, self(argument)) for k, argument in enumerate(arguments)]
-                return graph.plus(*(graph.chained(graph.slope(function, k, arguments), rate)
+                return graph.plus(*(graph.chained([(graph.slope(function, k, arguments), 1)], rate)
                                     for k, rate in rates if rate is not graph.zero))
             case "choice":
                 cases, otherwise = node.content
@@ -288,7 +294,7 @@ class Derivative(_NodeFunction):
         rate = self(base)
         if rate is self._graph.zero:
             return rate
-        return self._graph.chained(self._graph.with_less(node, base), rate)
+        return self._graph.chained([*node.content, (base, -1)], rate)
 
 
 class Replacement(_NodeFunction):
