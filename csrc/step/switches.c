@@ -43,11 +43,10 @@ static void evaluate_now(const zd_step_loop *loop, double *value)
     evaluate(loop, loop->stepper->t, loop->motion->point->p, loop->motion->point->v, value);
 }
 
+static int have_different_signs(double a, double b) { return a > 0 ? b < 0 : a < 0 && b > 0; }
+
 /* True if values have the other sign than a switch is held at. */
-static int has_passed(const zd_switching *self, int i, const double *value)
-{
-    return self->side[i] > 0 ? value[i] < 0 : self->side[i] < 0 && value[i] > 0;
-}
+static int has_passed(const zd_switching *self, int i, const double *value) { return have_different_signs(self->side[i], value[i]); }
 
 /* Writes the sides to their places; true if one is new there. */
 static int write_sides(zd_step_loop *loop)
@@ -119,8 +118,7 @@ static int hold(zd_step_loop *loop, int *status)
 {
     zd_switching *self = &loop->switching;
     for (int i = 0; i < self->count; i++)
-        if (self->before[i] < 0 ? self->now[i] > 0 : self->before[i] > 0 && self->now[i] < 0) self->side[i] =
-                copysign(HELD_SIDE, self->before[i]);
+        if (have_different_signs(self->before[i], self->now[i])) self->side[i] = copysign(HELD_SIDE, self->before[i]);
     if (!write_sides(loop)) return 0;
     loop->motion->statistics.rejected++;
     zd_closed_form_leave_step(loop->motion);
