@@ -196,8 +196,9 @@ class ForceVerbs(Elements):
             With which the direction turns; left out: it stays.
         against : Body, Point or name, optional
             On which the opposite acts. On a body it acts at the same place, without a free moment; `frame` must then be that body
-            or left out. At a point, also that of a particle, it acts there: both are a pair with a free moment, value times the
-            distance of their lines, which ``print(m)`` names. Left out: the ground.
+            or left out (along a third body: three forces along the drawing's axes, whose laws read its ``rotation``). At a point,
+            also that of a particle, it acts there: both are a pair with a free moment, value times the distance of their lines,
+            which ``print(m)`` names. Left out: the ground.
 
         Returns
         -------
