@@ -49,14 +49,6 @@ static int has_all_samples(const zd_run *run)
     return run->settings.t_eval && !run->settings.events && zd_output_is_complete(&run->output);
 }
 
-/* ZD_PAUSED after a jump of the state, for the caller to notice. */
-static int pass_break(zd_run *run)
-{
-    const int64_t jumps = run->motion.balance.jump.count;
-    const int status = zd_pass_break(&run->loop);
-    return status || jumps == run->motion.balance.jump.count ? status : ZD_PAUSED;
-}
-
 int zd_run_advance(zd_run *run, zd_record *record, double seconds)
 {
     const double deadline = zd_seconds_now() + seconds;
@@ -70,7 +62,7 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds)
             if (zd_seconds_now() >= deadline) return ZD_PAUSED;
             clock_step += CLOCK_EVERY;
         }
-        if (meets_breaks) status = pass_break(run);
+        if (meets_breaks) status = zd_pass_break(&run->loop);
         if (!status && (!meets_breaks || run->stepper.t != run->loop.end)) status = plain ? zd_step(&run->loop) : take_step(run);
         if (!status) status = zd_point_check_domain(run->motion.point, errors * run->settings.rtol, errors * run->settings.atol);
         if (!status && record) status = save(run, record, 0);

@@ -29,8 +29,10 @@ typedef struct zd_lane_search {
     zd_occurrence cut;      /* the same, where the step was repeated up to it */
     double *early;          /* (size,): state before the event */
     double *mixed;          /* (size,): state at the event */
-    int ended;              /* the event that ends the run, counted from 1; 0: none */
+    int ended;              /* the event that ends the run or acts, counted from 1; 0: none */
+    int goes_on;            /* 1: it only acts */
     double end;             /* time of that event */
+    int *acts;              /* (events,): 1 if it acts at that time */
     int is_cut;             /* 1: the last step was repeated up to that event */
     int is_at_end;          /* 1: the lane has reached it, and the samples before are saved */
 } zd_lane_search;
@@ -59,6 +61,7 @@ typedef struct zd_lane_group {
     zd_lane_run run_of[ZD_MAX_LANES];
     int64_t next, active;   /* next run to begin; number of runs in lanes */
     double *p, *v, *C;      /* (nq,), (nv,), (m, nv): state and constraint matrix of one lane */
+    double *numbers;        /* (doubles,): data of one lane, which events change; NULL: none do */
     zd_terms terms;         /* terms of the system, for C alone */
     zd_reader reader;       /* reader of event functions */
 } zd_lane_group;
@@ -108,6 +111,11 @@ void zd_lane_group_add_sample(zd_lane_group *self, int lane, double t);
 void zd_lane_group_locate(zd_lane_group *self);
 /* Sets the state of the lane to that at the event that ends its run. */
 void zd_lane_group_go_to_end(zd_lane_group *self, int lane);
+
+/* lane_actions.c: number of the occurrence of the event that ends the run; the next one, if it acts. */
+int64_t zd_lane_last_of(const zd_lane_group *self, const zd_lane_run *run, int event);
+/* Sets inputs in lanes that are at an event which acts, and lets them go on. */
+void zd_lane_group_act(zd_lane_group *self);
 
 /* Copies the state y of a lane to p, v. */
 void zd_lane_group_gather(const zd_lane_group *self, int lane, const double *y);

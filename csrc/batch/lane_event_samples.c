@@ -14,6 +14,7 @@ zd_lane_search zd_lane_search_create(zd_arena *arena, const zd_lanes *lanes)
         .zeros = zd_arena_bytes(arena, events * sizeof(zd_zeros)),
         .occurrence = zd_arena_bytes(arena, events * ZD_MAX_POINTS * sizeof(zd_occurrence)),
         .early = zd_arena_doubles(arena, size),
+        .acts = zd_arena_ints(arena, events),
         .mixed = zd_arena_doubles(arena, size),
     };
 }
@@ -37,16 +38,12 @@ void zd_lane_group_evaluate_all(zd_lane_group *self, int lane, double t, const d
 /* Change of an event function when the gathered state changes by its rounding. */
 double zd_lane_group_rounding(zd_lane_group *self, int lane, int event, double t, double value)
 {
-    const zd_lanes *lanes = &self->lanes;
-    double *p = self->run_of[lane].search.mixed, *v = p + lanes->nq, rounding = 0;
-    for (unsigned seed = 1; seed <= 2; seed++) {
-        double g = value;
-        zd_perturb(lanes->nq, self->p, seed, p);
-        zd_perturb(lanes->nv, self->v, seed + 2, v);
-        t *= 1 + (seed > 1 ? 2 * ZD_TIME_RESOLUTION : -ZD_TIME_RESOLUTION);
-        if (zd_read_event(&self->reader, zd_lane_group_data(self, lane), event, t, p, v, &g)) self->lanes.leaves[lane] = 1;
-        rounding += fabs(g - value);
-    }
+    zd_run *run = self->run;
+    double rounding = 0;
+    run->motion.system.data = zd_lane_group_data(self, lane);
+    run->stepper.t = t;
+    zd_point_move(run->motion.point, t, self->p, self->v);
+    if (zd_watch_rounding(&run->watch, event, value, &rounding)) self->lanes.leaves[lane] = 1;
     return rounding;
 }
 

@@ -3,6 +3,7 @@
  * the evaluations are made in all lanes at once.
  */
 #include <math.h>
+#include <string.h>
 
 #include "../linalg/small.h"
 #include "../step_limits.h"
@@ -77,7 +78,7 @@ static void note_located(zd_lane_group *self, int lane)
     const double b = search->occurrence[search->occurrences - 1].bracket.b;
     const int64_t number = *zd_event_samples_count(self->batch, run->number, search->event) + ++search->number;
     search->point++;
-    if (search->is_cut || b >= search->end || number != self->batch->settings->events->terminal[search->event]) return;
+    if (search->is_cut || b >= search->end || number != zd_lane_last_of(self, run, search->event)) return;
     search->end = b;
     search->ended = search->event + 1;
     search->last = search->occurrences - 1;
@@ -114,7 +115,7 @@ static int64_t max_samples_of(const zd_lane_group *self, const zd_lane_run *run)
 {
     const zd_lane_search *search = &run->search;
     if (!search->is_cut || search->event != search->cut.event) return ZD_MAX_POINTS;
-    return self->batch->settings->events->terminal[search->event] - 1 - *zd_event_samples_count(self->batch, run->number, search->event);
+    return zd_lane_last_of(self, run, search->event) - 1 - *zd_event_samples_count(self->batch, run->number, search->event);
 }
 
 /* Proceeds to the next change of sign of the event that has to be located; returns 0 if there is none. */
@@ -186,6 +187,11 @@ static void find_state(zd_lane_group *self, int lane)
     mix(self, lane, it.b, run->search.mixed);
     zd_event_samples found = {self->batch, run->number};
     zd_event_samples_add(&found, occurrence->event, located->b, self->p, self->v);
+    const zd_events *events = self->batch->settings->events;
+    const int is_last = *zd_event_samples_count(self->batch, run->number, occurrence->event) == events->terminal[occurrence->event];
+    run->search.acts[occurrence->event] = zd_acts(events, occurrence->event);
+    if (is_last) run->search.ended = occurrence->event + 1;
+    run->search.goes_on &= !is_last;
 }
 
 void zd_lane_group_go_to_end(zd_lane_group *self, int lane)
@@ -213,6 +219,8 @@ static void begin(zd_lane_group *self, int lane)
     search->number_of_now = lanes->number[lane];
     search->end = INFINITY;
     search->last = -1;
+    search->goes_on = 1;
+    memset(search->acts, 0, lanes->events * sizeof *search->acts);
     if (self->lanes.leaves[lane] != 0) return;
     sample_step(self, lane);
     if (lanes->is_fixed && !zd_lane_group_predict(self, lane)) find_pairs_from(self, lane, 0, 1);

@@ -51,7 +51,7 @@ static int is_due_before_end(zd_lane_group *self, int lane, double *when)
     if (*when < run->search.end && !run->search.is_at_end) return 1;
     if (!run->search.is_at_end) zd_lane_group_go_to_end(self, lane);
     *when = lanes->t[lane];
-    return !run->is_complete;
+    return !run->is_complete && !run->search.goes_on;
 }
 
 /* True if a sample of the lane's run is due by the end of the last step, at *when. Without t_eval, samples are due every save_every

@@ -14,7 +14,9 @@ void zd_lane_group_gather(const zd_lane_group *self, int lane, const double *y)
 
 const void *zd_lane_group_data(const zd_lane_group *self, int lane)
 {
-    return zd_single_run_data(self->batch, self->run_of[lane].number);
+    if (!self->numbers) return zd_single_run_data(self->batch, self->run_of[lane].number);
+    zd_lane_store(&self->lanes, lane, self->batch->doubles, self->lanes.data, self->numbers);
+    return self->numbers;
 }
 
 /* C (mh, nv) in characteristic scales at y; returns 0 if the evaluation failed. */

@@ -65,6 +65,7 @@ static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_si
         .p = zd_arena_doubles(arena, system->nq),
         .v = zd_arena_doubles(arena, system->nv),
         .C = zd_arena_doubles(arena, size_of_C),
+        .numbers = batch->settings->inputs ? zd_arena_doubles(arena, batch->doubles) : NULL,
         .terms = {.scratch = zd_arena_doubles(arena, system->scratch), .inputs = run->motion.point->inputs},
     };
     zd_lanes_create(&group.lanes, arena, run, group.functions, closed_form, batch->doubles);
@@ -215,6 +216,7 @@ static void check(zd_lane_group *self)
     if (lanes->watches) zd_lane_group_locate(self);
     do zd_lane_group_save(self);
     while (replace(self));
+    if (self->batch->settings->inputs) zd_lane_group_act(self);
 }
 
 static void run_all(zd_lane_group *self)

@@ -157,6 +157,10 @@ static void run_of(const zd_batch *batch, const zd_single_run *own, const zd_sys
 void zd_single_run_execute(const zd_batch *batch, const zd_single_run *own, int64_t number)
 {
     const zd_system system = zd_single_run_system(batch, number);
+    if (batch->settings->inputs) {      /* their memory is common to all runs */
+        batch->way[number] = ZD_UNUSUAL, batch->status[number] = ZD_DONE;
+        return;
+    }
     if (!batch->family) {
         run_of(batch, own, &system, number);
         return;

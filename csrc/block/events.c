@@ -12,12 +12,11 @@ void zd_block_events_create(zd_block_events *self, const zd_block_layout *layout
     self->action = zd_arena_bytes(arena, (size_t)zd_block_count(layout, ZD_BLOCK_ACTIONS) * sizeof *self->action);
 }
 
-static const double LARGEST = 0x1p24;
-
 static int is_right(const double *word)
 {
-    return zd_block_is_integer(word[0], ZD_READS_P, ZD_READS_NUMBER) && zd_block_is_integer(word[1], 0, LARGEST) &&
-           zd_block_is_integer(word[2], 0, LARGEST) && zd_block_is_integer(word[4], -1, 2) && zd_block_is_integer(word[5], 0, LARGEST);
+    int is = zd_block_is_integer(word[0], ZD_READS_P, ZD_READS_NUMBER);
+    for (int i = 1; i < 6; i++) is &= i == 3 || zd_block_is_integer(word[i], -1, 0x1p24);
+    return is;
 }
 
 int zd_block_events_unpack(zd_block *block, zd_complaint to)

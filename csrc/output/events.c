@@ -57,13 +57,6 @@ zd_watch zd_watch_create(zd_arena *arena, const zd_events *events, zd_output *ou
     };
 }
 
-static int acts(const zd_events *events, int event)
-{
-    int any = 0;
-    for (int i = 0; i < events->actions; i++) any |= events->action[i].event == event;
-    return any;
-}
-
 int zd_watch_start(zd_watch *self)
 {
     return zd_watch_evaluate_all(self, self->before);
@@ -108,7 +101,7 @@ static int locate_event(zd_watch *self, int event, int most, double *end)
         *it = (zd_occurrence){event, k, bracket_of(self, event, k - 1, k)};
         int status = locate(self, it);
         if (status) return status;
-        const int is_last = self->found[event] + ++number == events->terminal[event] || acts(events, event);
+        const int is_last = self->found[event] + ++number == events->terminal[event] || zd_acts(events, event);
         if (!is_last || it->bracket.b >= *end) continue;
         *end = it->bracket.b;
         self->ended = event + 1;
@@ -131,7 +124,7 @@ static int cut(zd_watch *self, double *end)
 {
     zd_output *output = self->output;
     zd_occurrence last = self->occurrence[self->last];
-    const int earlier = acts(self->events, last.event) ? 0 : self->events->terminal[last.event] - self->found[last.event] - 1;
+    const int earlier = zd_acts(self->events, last.event) ? 0 : self->events->terminal[last.event] - self->found[last.event] - 1;
     last.bracket = widened(self, &last);
     output->is_prepared = 0;
     int status = locate(self, &last);
@@ -208,7 +201,7 @@ static int report_one(zd_watch *self, int index)
     int status = move_to_event(self, found, &there);
     if (!status && events->found) status = events->found(events->data, found->event, there->t, there->p, there->v);
     if (status) return status;
-    self->acts[found->event] = acts(events, found->event);
+    self->acts[found->event] = zd_acts(events, found->event);
     if (++self->found[found->event] == events->terminal[found->event]) self->ended = found->event + 1;
     return index != self->last || there == &self->late ? ZD_DONE : zd_stepper_return_to(self->output->stepper, there);
 }

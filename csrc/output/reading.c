@@ -33,6 +33,13 @@ static int is_of_accelerations(const zd_argument *reading, const zd_measures *me
     return reading->what == ZD_READS_MEASURE && measures->measure[reading->index].depends == ZD_OF_ACCELERATIONS;
 }
 
+int zd_acts(const zd_events *events, int event)
+{
+    int any = 0;
+    for (int i = 0; i < events->actions; i++) any |= events->action[i].event == event;
+    return any;
+}
+
 int zd_reads_accelerations(const zd_events *events, const zd_system *run, int event)
 {
     const zd_event *known = events->known ? events->known + event : NULL;

@@ -24,6 +24,8 @@ static inline int zd_is_known(const zd_events *events, int event)
 {
     return events->known && events->known[event].readings > 0 && !events->known[event].is_called;
 }
+/* True if the event has an action. */
+int zd_acts(const zd_events *events, int event);
 /* True if the event reads reactions or accelerations. */
 int zd_reads_accelerations(const zd_events *events, const zd_system *run, int event);
 /* *value <- that of an event, for a system with this data; ZD_CALLBACK if it is not finite, or a measure or the callback fails. Requires the

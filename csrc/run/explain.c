@@ -197,12 +197,6 @@ void zd_say_event(char *to, size_t size, int event)
     snprintf(to, size, "ended by event %d", event);
 }
 
-static void describe_chatter(const zd_watch *watch, char *to, size_t size)
-{
-    snprintf(to, size, "event %d must not act again and again at one instant, as where a ball bounces ever less, or a relay has no "
-             "hysteresis: what then stays needs a constraint", watch->ended - 1);
-}
-
 static void describe_event(const zd_watch *watch, char *to, size_t size)
 {
     const int event = watch->failed - 1;
@@ -238,7 +232,6 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
         else snprintf(to, size, "%s", failure ? failure : zd_sentence(status));
         break;
     case ZD_SEVERAL_MOTIONS: describe_reading(&run->motion.reactions, to, size); break;
-    case ZD_CHATTERS: describe_chatter(&run->watch, to, size); break;
     case ZD_EVENT: zd_say_event(to, size, run->watch.ended - 1); break;
     case ZD_BAD_TERM: snprintf(to, size, "the system's %s must be finite", zd_term_name(point->failed_index)); break;
     default: snprintf(to, size, "%s", zd_sentence(status)); break;

@@ -48,9 +48,9 @@ static int place(zd_resample *self, int64_t sample)
 static int make_step(zd_resample *self, int64_t sample)
 {
     zd_step_loop *loop = &self->run->loop;
-    const int status = zd_pass_break(loop);
+    const int status = zd_pass_break(loop);     /* ZD_PAUSED: a jump, which needs no notice */
     const double t = self->run->stepper.t, next = time_of(self->saved, sample + 1);
-    if (status || t == next) return status;
+    if (status < 0 || t == next) return status < 0 ? status : ZD_DONE;
     const int is_last = sample + 2 == self->saved->samples;
     const int is_cut_short = self->run->settings.step - (next - t) > ZD_TIME_RESOLUTION * fmax(fabs(t), fabs(next));
     return zd_step_attempt(loop, &(zd_attempt){

@@ -44,9 +44,9 @@ static int project(zd_step_loop *loop)
     int status = zd_motion_balance(motion, &before);
     if (!status) status = zd_path_end(loop->stepper, loop->stepper->t, 0);
     if (!status) status = zd_motion_balance(motion, &after);
-    if (!status && fabs(after - before) > ZD_ENERGY_ROUNDING * zd_point_kinetic(motion->point))
-        zd_motion_add_jump(motion, loop->stepper->t, after - before);
-    return status;
+    if (status || !(fabs(after - before) > ZD_ENERGY_ROUNDING * zd_point_kinetic(motion->point))) return status;
+    zd_motion_add_jump(motion, loop->stepper->t, after - before);
+    return ZD_PAUSED;
 }
 
 int zd_pass_break(zd_step_loop *loop)
@@ -62,6 +62,6 @@ int zd_pass_break(zd_step_loop *loop)
     zd_point *point = loop->motion->point;
     point->t = stepper->t;
     point->known &= point->constant;
-    const int status = project(loop);
-    return status ? status : zd_renew(loop);
+    const int status = project(loop), renewed = status < 0 ? status : zd_renew(loop);
+    return renewed ? renewed : status;
 }

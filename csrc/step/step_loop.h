@@ -163,7 +163,8 @@ int zd_adaptive_start(zd_step_loop *loop, double *work);
 /* Passes the approximate error scale of the next step to an integrator that needs it. */
 void zd_adaptive_set_scale(zd_step_loop *loop);
 
-/* Before an adaptive step: moves on to a break of the system that is next to the time, but not past the end, and finds the next one. */
+/* Before an adaptive step: moves on to a break of the system that is next to the time, but not past the end, and finds the next one.
+ * ZD_PAUSED after a jump of speeds. */
 int zd_pass_break(zd_step_loop *loop);
 /* Recomputes what is known at the point, after a change of what is not its state: of time by rounding, of inputs. */
 int zd_renew(zd_step_loop *loop);

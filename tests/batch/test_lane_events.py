@@ -1,5 +1,7 @@
 """Events of runs in vector lanes: where `simulate` finds them up to rounding, with bits that do not depend on neighbours."""
 
+import functools
+
 import numpy as np
 import pytest
 import sympy as sp
@@ -124,3 +126,41 @@ def test_general_steps_write_their_events_down_without_python():
         assert ens.messages[run] == sol.message
         for mine, its in zip(ens.t_events[run], sol.t_events, strict=True):
             assert np.array_equal(mine, its)
+
+
+@functools.cache
+def rod():
+    """A point on a rod with a thrust across it."""
+    t, g, u = sp.symbols("t g u")
+    x, y = sp.Function("x")(t), sp.Function("y")(t)
+    return zd.symbolic([x, y], kinetic=(x.diff(t)**2 + y.diff(t)**2) / 2, potential=g * y, force=[-u * y, u * x],
+                       constraints={"rod": x**2 + y**2 - 1}, parameters={g: 9.81, u: 2.0}, inputs=[u], p0=[1.0, 0.0],
+                       v0=[0.0, 0.0])
+
+
+@pytest.mark.parametrize("terminal", [0, 2])
+@pytest.mark.parametrize("course", [
+    {"step": 0.01}, {"step": 0.013, "integrator": "heun"}, {"integrator": "dormand_prince", "rtol": 1e-7, "atol": 1e-9}])
+def test_events_act_as_in_simulate(course, terminal):
+    events = [zd.Event("x", value=-0.5, direction=-1, then={"u": 6.0}), zd.Event("x", value=0.5, direction=1, then={"u": 1.0}),
+              zd.Event("x", value=0.5, direction=1, then={"u": 1.5}, terminal=terminal)]
+    starts = np.column_stack([np.zeros(11), np.linspace(-1, 1, 11)])
+    given = {"events": events, "t_eval": np.linspace(0, 4, 41), **course}
+    ens = zd.ensemble(rod(), 4.0, p0=np.tile(rod().p0, (11, 1)), v0=starts, outputs=["x", "rod"], **given)
+    assert (ens._part.paths == LANES).all()
+    for run, v0 in enumerate(starts):
+        sol = zd.simulate(rod(), 4.0, rod().p0, v0, **given)
+        count = ens._part.rows[run]
+        assert len(ens.t_events[run][0]) > 0
+        for name in ("x", "rod"):
+            assert_alike(ens[name][run][:count], sol[name][:count], ALIKE)
+        for mine, its in zip(ens.t_events[run], sol.t_events, strict=True):
+            assert_alike(mine, its, ALIKE)
+    assert ens[3]["u"][-1] == zd.simulate(rod(), 4.0, rod().p0, starts[3], **given)["u"][-1]
+
+
+def test_events_that_chatter_in_lanes_are_failed_runs():
+    events = [zd.Event("x_dot", value=0.0, then={"u": 10.0}), zd.Event("x_dot", value=1e-13, then={"u": -10.0})]
+    ens = zd.ensemble(rod(), 4.0, p0=np.tile(rod().p0, (3, 1)), v0=np.zeros((3, 2)), events=events, step=0.01, t_eval=[4.0])
+    assert ens.failed.all()
+    assert "an event must not act again and again" in ens.messages[0]

@@ -35,7 +35,7 @@ ZD_KERNEL zd_real end_of_step(const zd_lanes *self, zd_real *h)
         const zd_condition is_last = number == self->steps;
         const zd_real t1 = ZD_WHERE(is_last, end, self->t0 + number * self->step);
         const double rounding = ZD_TIME_RESOLUTION * fmax(fabs(self->t0), fabs(self->end));
-        *h = ZD_WHERE(is_last & (size_of(end - t - self->step) > rounding), end - t, self->step);
+        *h = ZD_WHERE(size_of(t1 - t - self->step) > rounding, t1 - t, self->step);    /* shorter: the last, and after an event */
         return t1;
     }
     zd_real size = *REAL(self->h);

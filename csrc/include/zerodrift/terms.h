@@ -42,7 +42,8 @@
     STATUS(ZD_COLLAPSED, -26, "StepFailed", "the step size has collapsed at one place") \
     STATUS(ZD_SEVERAL_MOTIONS, -27, "NoUniqueMotion", \
            "reactions have no unique solution: forces must not depend so strongly on those that they read") \
-    STATUS(ZD_CHATTERS, -28, "StepFailed", "an event acts again and again at one instant")
+    STATUS(ZD_CHATTERS, -28, "StepFailed", \
+           "an event must not act again and again at one instant, as where a ball bounces ever less: what stays needs a constraint")
 
 #define ZD_STATUS_NUMBER(name, number, error, sentence) name = number,
 enum zd_status { ZD_STATUS_LIST(ZD_STATUS_NUMBER) };

@@ -11,6 +11,8 @@ from .._private import checks, gateway
 from ..mechanisms.system import MechanismSystem
 from ..runs.arguments import events as events_of
 from ..runs.arguments import settings
+from ..runs.arguments.inputs import FOLLOWED, Declared
+from ..runs.arguments.inputs import declared as declared_inputs
 from ..runs.open import diagnosis
 from ..runs.open.ending import solution_of_rows
 from ..runs.samples.solution import Solution
@@ -38,6 +40,7 @@ class Batch(NamedTuple):
     settings: dict[str, Any]                # as in `Solution.settings`; keeps t_eval alive, to which `core_settings` points
     events: gateway.Watcher | None         # events that the core evaluates
     numbers: int                            # approximate count of numbers in the tables of one run
+    declared: Declared | None               # inputs that events set, in SIMD lanes
 
     def core_of(self, tables: NumberTables) -> gateway.CoreSystem:
         """System in the core whose functions all runs call."""
@@ -64,7 +67,13 @@ def _batch(plan: Plan) -> Batch | None:
     runs, system, options = plan.runs, plan.runs.made, plan.options.copy()
     if plan.reduce is not None or plan.keeps or not isinstance(system, BaseSystem):
         return None
-    watched = events_of.events(options.pop("events", None), system)
+    events = options.pop("events", None)
+    watched, places = events_of.events(events, system), None
+    declared = declared_inputs(events_of.inputs_of(events) or None, system, FOLLOWED, options.get("step"))
+    if declared:
+        places = declared.places()
+        if plan.t_eval is None or places.keys() & runs.parameters.keys():
+            return None
     if watched is not None and not _are_known(watched, system, set(runs.parameters)):
         return None
     if not plan.is_tabular:
@@ -78,21 +87,22 @@ def _batch(plan: Plan) -> Batch | None:
     tables = runs.tables(system, 0, 1, closed_form)      # closed-form functions are compiled here, once
     found_columns = _columns(system, plan.names, system._watching.core if tables is None else tables.core)
     family = None if tables is None else tables.family
-    if found_columns is None or (family is not None and (watched is not None or (family.drives and span[0] != 0))):
+    if found_columns is None or (family is not None and (watched is not None or (family.drives and span[0] != 0))) or (
+            declared and (tables is None or tables.data is None)):
         return None
     batch = Batch(system, found.core_settings, found.rows, *found_columns, closed_form,
                   assembly(system, runs.hold) if runs.assembles(system) else None, found.settings,
-                  None if watched is None else gateway.Watcher(core_of(system), watched, core_of(system)),
-                  0 if family is None else family.numbers)
+                  None if watched is None else gateway.Watcher(core_of(system), watched, core_of(system), places=places),
+                  0 if family is None else family.numbers, declared)
     if tables is not None:
         batch.core_of(tables)       # raises an error for a system without Taylor coefficients before the runs start
     return batch
 
 
 def _are_known(watched: tuple[events_of.Watched, ...], system: BaseSystem, varied: set[str]) -> bool:
-    """True if the core evaluates all events without Python, none depends on a varied parameter, and none acts."""
+    """True if the core evaluates all events without Python and none depends on a varied parameter."""
     has_measures = system._watching.core is core_of(system)
-    known = [event.known for event in watched if event.known is not None and not event.known.is_called and not event.then]
+    known = [event.known for event in watched if event.known is not None and not event.known.is_called]
     return len(known) == len(watched) and all((has_measures or not event.is_measured) and not event.parameters & varied
                                               for event in known)
 
@@ -141,11 +151,15 @@ def batch_range(plan: Plan, batch: Batch, first: int, last: int, stop: gateway.S
 def _make(plan: Plan, batch: Batch, tables: NumberTables, first: int, last: int, wanted: tuple[str, ...],
           stop: gateway.Stop | None = None) -> gateway.BatchResults:
     p0, v0 = plan.runs.starts(tables, first, last)
-    systems = tables._replace(core=batch.core_of(tables), p0=p0, v0=v0)
+    core, inputs = batch.core_of(tables), None
+    if batch.declared:
+        inputs, (core,) = batch.declared.bound(core)
+    systems = tables._replace(core=core, p0=p0, v0=v0)
     room = plan.remembered.setdefault("events", FEW_EVENTS)     # occurrences of an event that fit into memory
     while True:
         made = gateway.run_batch(systems, batch.core_settings, last - first, batch.rows, tuple(dict.fromkeys(wanted)),
-                                  batch.assembly, stop, outputs=batch.outputs, events=batch.events, room=room)
+                                  batch.assembly, stop, outputs=batch.outputs, events=batch.events, room=room,
+                                  inputs=inputs)
         most = 0 if made.events is None else int(made.events.counts.max(initial=0))
         if most <= room:
             return made
@@ -156,10 +170,10 @@ STATES = ("t", "p", "v", "input", "multipliers", *gateway.COUNTS)
 
 
 def made_again(plan: Plan, run: int) -> Solution:
-    """Repeat one run individually, bitwise equal to the run in the batch."""
+    """Repeat one run individually, bitwise equal to the run in the batch; to rounding, if events set inputs."""
     batch = batch_of(plan)
     tables = None if batch is None else plan.runs.tables(batch.system, run, run + 1, batch.closed_form)
-    if batch is None or tables is None:
+    if batch is None or tables is None or batch.declared:
         return plan.solution(run)
     if tables.family is not None:
         return _solution_of_family(plan, batch, tables, run)

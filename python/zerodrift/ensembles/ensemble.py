@@ -48,7 +48,8 @@ def ensemble(system: SystemLike | Callable[..., SystemLike], t_span: float | tup
     kept with their message: see `failed` and `messages` of the result.
 
     The core makes runs without Python where it can. In SIMD lanes, several at once: if the system is evaluated in closed form,
-    outputs are coordinates, velocities and multipliers, output times are known in advance, and events are names or expressions.
+    outputs are coordinates, velocities and multipliers, output times are known in advance, and events are names or expressions;
+    events that set inputs need `t_eval`, and a system of `symbolic`.
     One by one, assembly and measures included: planar mechanisms with varied numbers, without user functions, wishes and drives
     of constant speed. These results agree with `simulate` to rounding. All other runs are made by `simulate`; `repr` gives the
     number of each kind.

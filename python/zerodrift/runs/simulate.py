@@ -18,7 +18,7 @@ from .open.control import Every, called, controls
 from .open.ending import Outcome, finish_file, finished, solution_of
 from .open.keyboard import Keyboard, progress_of
 from .open.run import Run
-from .open.stepping import SLICE, Noted
+from .open.stepping import SLICE
 from .samples import recording
 from .samples.solution import Solution
 from .samples.summary import calls_in_words
@@ -224,18 +224,15 @@ def simulate(
         controlled = Run.of(ready, of) if of or inputs or acts else None
         run = controlled._core if controlled else ready.created()
         record = ready.record(run)
-        noted = controlled._noted if controlled else Noted(run)
-        outcome = _drive(run, record, progress, keyboard, controlled, noted)
+        outcome = _drive(run, record, progress, keyboard, controlled)
         results = run.results()
-        solution = solution_of(ready, run, record, results, outcome, history=controlled._history if controlled else None,
-                               jumps=noted.rows)
+        solution = solution_of(ready, run, record, results, outcome, history=controlled._history if controlled else None)
         if ready.path:
             finish_file(record, solution, outcome)
     return finished(solution, run, results, outcome, on_failure, keyboard)
 
 
-def _drive(run: gateway.Run, record: gateway.Record, progress: Any, keyboard: Keyboard, controlled: Run | None,
-           noted: Noted) -> Outcome:
+def _drive(run: gateway.Run, record: gateway.Record, progress: Any, keyboard: Keyboard, controlled: Run | None) -> Outcome:
     """Run the core in slices of time, and to the instants of controllers, until it ends, fails or is interrupted."""
     show, close = progress_of(progress)
     start, status, error, limit = time.perf_counter(), gateway.PAUSED, None, LONG_CALLS
@@ -251,9 +248,7 @@ def _drive(run: gateway.Run, record: gateway.Record, progress: Any, keyboard: Ke
             status = run.advance(record, SLICE)
             record.keep()
             if controlled:
-                controlled._note_jumps()
-            else:
-                noted.note(run)
+                controlled._note_jump()
             if controlled and controlled._goes_on(status):
                 status = gateway.PAUSED
             if sum(run.calls.values()) > limit:

@@ -78,12 +78,12 @@ TYPES = {"samples": "int64_t[]", "status": "int[]", "way": "int[]", "statistics"
 
 def run_batch(tables: Any, settings: Any, k: int, capacity: int, wanted: tuple[str, ...], assembly: Assembly | None = None,
               stop: Stop | None = None, *, lanes: bool = True, outputs: Any = None, events: Watcher | None = None,
-              room: int = 0) -> BatchResults:
+              room: int = 0, inputs: Any = None) -> BatchResults:
     """Execute k runs of systems with the numbers and starts of `tables`, a `NumberTables`.
 
     `settings` is one `zd_settings` for all runs, or a list with one per run; runs of a list do not use SIMD lanes, and are
     measured. Events must be evaluated by the core. Up to `room` occurrences of each are stored, with their states if "p" is
-    requested.
+    requested. They set `inputs`, of a system of this call alone, in SIMD lanes; other runs are left to the caller.
 
     If their data is None, all runs use the data of the core: `size` doubles, or other data if `size` is 0. With a `family` each
     run has its own system, and computes its start if p0 is None. `outputs` are recorded measures. The interpreter lock is
@@ -98,11 +98,12 @@ def run_batch(tables: Any, settings: Any, k: int, capacity: int, wanted: tuple[s
     several = settings if isinstance(settings, list) else [settings]
     found = {name: np.zeros(k) for name in MEASURED} if several is settings else {}
     happened = None if events is None else _room_for(events, core, k, room, with_states="p" in wanted)
-    for each in several:
+    own = ffi.new("zd_settings[]", [each[0] for each in several])
+    for each in own:
         each.given_jacobian, each.events = core.given_jacobian, events.c if events is not None else ffi.NULL
-        each.outputs = outputs.c if outputs else ffi.NULL
+        each.outputs, each.inputs = (given.c if given else ffi.NULL for given in (outputs, inputs))
     members: dict[str, Any] = {
-        "system": core.c, "settings": ffi.new("zd_settings[]", [each[0] for each in several]),
+        "system": core.c, "settings": own,
         "settings_differ": several is settings, "runs": k, "capacity": capacity, "message_size": MESSAGE_SIZE,
         "doubles": size, "lanes": lanes, **{name: doubles(array, k, writable=True) for name, array in found.items()},
         "message": ffi.from_buffer("char[]", messages),

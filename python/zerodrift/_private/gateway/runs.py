@@ -123,7 +123,13 @@ class Saved(NamedTuple):
 
 
 class Run:
-    """A run of the core, from a start, or from a saved state (then p0 and v0 are ignored)."""
+    """A run of the core, from a start, or from a saved state (then p0 and v0 are ignored).
+
+    Attributes
+    ----------
+    jumped : list of (float, str, float)
+        Time in s of each jump of the state, the name of what made it, and the change of the energy in J.
+    """
 
     def __init__(self, core: CoreSystem, settings: Any, p0: np.ndarray, v0: np.ndarray, watcher: Watcher | None = None,
                  outputs: Outputs | None = None, inputs: Inputs | None = None,
@@ -148,6 +154,8 @@ class Run:
         if not run:
             raise self._raised or error_of(status[0], text(message))
         self._run = ffi.gc(run, lib.zd_run_free)
+        self.jumped: list[tuple[float, str, float]] = []
+        self._jumps = lib.zd_run_energy_jump(run).count
 
     def begin_saving(self, p0: np.ndarray, v0: np.ndarray) -> None:
         """Allows `save`: called before the first step of a run from this start."""
@@ -163,7 +171,16 @@ class Run:
 
     def advance(self, record: Record | None, seconds: float) -> int:
         """Make steps for about `seconds`; return the status. The interpreter lock is released meanwhile."""
-        return lib.zd_run_advance(self._run, ffi.NULL if record is None else record.c, seconds)
+        status = lib.zd_run_advance(self._run, ffi.NULL if record is None else record.c, seconds)
+        self.note_jump("break")
+        return status
+
+    def note_jump(self, name: str) -> None:
+        """Note the last jump of the state in `jumped`, if it is new; "": it is not noted."""
+        last = lib.zd_run_energy_jump(self._run)
+        if last.count != self._jumps:
+            self._jumps = last.count
+            self.jumped += [(last.t, name, last.energy)] if name else []
 
     def record_states(self, record: Record, columns: Mapping[str, np.ndarray]) -> None:
         """Record samples with given "t" (k,), "p", "v" and "input" (k,); the run cannot be continued afterwards."""
@@ -216,12 +233,6 @@ class Run:
         p, v = (np.frombuffer(ffi.buffer(at, size)[:])
                 for at, size in zip((lib.zd_run_p(run), lib.zd_run_v(run)), sizes, strict=True))
         return lib.zd_run_time(run), p, v
-
-    @property
-    def energy_jump(self) -> tuple[int, float, float]:
-        """Number of jumps of the state; time in s of the last one, and the change of the energy by it, in J."""
-        last = lib.zd_run_energy_jump(self._run)
-        return last.count, last.t, last.energy
 
     @property
     def calls(self) -> Mapping[str, float]:

@@ -38,18 +38,16 @@ class Outcome(NamedTuple):
 
 
 def solution_of(ready: Prepared, run: gateway.Run, record: Any, results: gateway.Results, outcome: Outcome,
-                span: tuple[float, float] | None = None, history: History | None = None,
-                jumps: Sequence[tuple[float, str, float]] = ()) -> Solution:
+                span: tuple[float, float] | None = None, history: History | None = None) -> Solution:
     """Solution of a run that has ended, with its arrays made at first use."""
     record.join()
-    rows = [*jumps, *((jump.t, ", ".join(jump.impulses), jump.work) for jump in (history.jumps if history else ()))]
     found = events_found(ready.watcher)
     return Solution._of_run(
         functools.partial(_arrays_and_stats, record, results, outcome.seconds, ready.recorded, ready.system, ready.settings,
                           history),
         status=outcome.status, success=outcome.status in (gateway.DONE, gateway.EVENT), message=message_of(run, outcome),
         settings=ready.settings, system=ready.system, t_span=span or ready.span,
-        jumps=jumps_of(rows, ready.events, found.get("t_events")), **found)
+        jumps=jumps_of(run.jumped, ready.events, found.get("t_events")), **found)
 
 
 def solution_of_rows(system: BaseSystem, span: tuple[float, float], chosen: dict[str, Any], record: gateway.Record,

@@ -20,20 +20,6 @@ from .present import Present
 SLICE = 0.03        # seconds that the core runs between two checks of keyboard and progress
 
 
-class Noted:
-    """Jumps of the state in the energy balance of a run: rows of time in s, name, and change of the energy in J."""
-
-    def __init__(self, core: gateway.Run) -> None:
-        self.rows, self._count = list[tuple[float, str, float]](), core.energy_jump[0]
-
-    def note(self, core: gateway.Run, name: str = "break") -> None:
-        """Note the last jump, if it is new; `name`: of what made it, by default a law at its break; "": it is not noted."""
-        count, t, energy = core.energy_jump
-        if count != self._count:
-            self._count = count
-            self.rows += [(t, name, energy)] if name else []
-
-
 class Stepping(Present):
     """An open run that makes steps."""
 
@@ -52,7 +38,6 @@ class Stepping(Present):
         super()._open(core)
         self.jump: Jump | Any = None
         self._jumps = core.jumps
-        self._noted = Noted(core)
 
     def step(self, steps: int = 1) -> None:
         """Make steps: fixed ones, or as many as the integrator chooses.
@@ -175,17 +160,17 @@ class Stepping(Present):
         if status := core.set_state(*given):
             error = core.error(status)
             core.set_state(*before)
-            self._noted.note(core, "")
+            core.note_jump("")
             raise error
-        self._noted.note(core, "set_state" if core.acting < 0 else self._ready.events[core.acting].name)
+        core.note_jump("set_state" if core.acting < 0 else self._ready.events[core.acting].name)
 
-    def _note_jumps(self) -> None:
-        """Note the jump of speeds in the first step of the last advance, if there was one, and that at its end."""
+    def _note_jump(self) -> None:
+        """Note the jump of speeds in the first step of the last advance, if there was one."""
         core = self._core
-        self._noted.note(core)
         if self._drives is None or core.jumps == self._jumps:
             return
         self._jumps, self.jump = core.jumps, self._drives.jump(*core.jump())
+        core.jumped.append((self.jump.t, ", ".join(self.jump.impulses), self.jump.work))
         if self._history is not None:
             self._history.jumps.append(self.jump)
 
@@ -193,7 +178,7 @@ class Stepping(Present):
         """Go on after a pause or with more memory; raise the error of a failure."""
         core, record = self._core, self._record
         while status in (gateway.PAUSED, gateway.FULL):
-            self._note_jumps()
+            self._note_jump()
             if not self._acts() and self._history is not None:
                 self._history.note(core.t, self.inputs)
             if status == gateway.FULL:
@@ -201,7 +186,7 @@ class Stepping(Present):
                 record.grow()
                 self._c_record = record.c
             status = core.advance(record, SLICE)
-        self._note_jumps()
+        self._note_jump()
         if record is not None:
             record.keep()
         if status not in (gateway.DONE, gateway.EVENT):
@@ -225,7 +210,7 @@ class Stepping(Present):
     def _solution(self, outcome: Outcome) -> Solution:
         record = self._record if self._ready.path else self._record.snapshot()
         span = self._ready.span[0], self.t
-        return solution_of(self._ready, self._core, record, self._core.results(), outcome, span, self._history, self._noted.rows)
+        return solution_of(self._ready, self._core, record, self._core.results(), outcome, span, self._history)
 
     def _control(self) -> None:
         """Act at an event; or call the controllers that are due, and aim at the next instant of one."""
