@@ -201,8 +201,8 @@ static int accept(zd_step_loop *loop)
     const double h = control->bounded, intended = control->h;
     const int status = watch_collapse(loop);
     control->h = by_move(control, h, h * fmin(control->largest_factor, factor(loop, control->norm)));
-    if (loop->stepper->t == zd_step_loop_latest(loop) || loop->switching.is_cut)
-        control->h = fmax(control->h, intended);    /* as if it had not been cut */
+    if (loop->stepper->t == zd_step_loop_latest(loop)) control->h = fmax(control->h, intended);     /* as if it had not been cut */
+    if (loop->switching.is_cut) control->h = intended;
     if (integrator->limit_step) control->h = integrator->limit_step(loop->stepper->memory, control->h);
     zd_step_histogram_step(&control->histogram, loop->stepper->t);
     return status;

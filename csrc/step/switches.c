@@ -1,7 +1,7 @@
 /* Switches: comparisons of the motion at which a force jumps. An attempt within which some of them change is made again with these as they
  * are at its start, so that all its stages are on one side; the instant at which the first of them changes is located by attempts of other
  * sizes, and the step ends there. The next step has that comparison as it is after the change, however the difference of its sides is
- * rounded at its start. In all other steps the comparisons decide.
+ * rounded at its start, and is short, as a change back within it would not be seen. In all other steps the comparisons decide.
  *
  * A comparison that changes back at the instant at which it changed is met from both sides, as by dry friction at rest.
  */
@@ -13,6 +13,7 @@
 #include "../linalg/small.h"
 #include "../step_limits.h"
 
+static const double SHORT_STEP = 0x1p-6;        /* size of the step after a change, relative to that in which it was found */
 static const double SHARE_OF_STEP = 0x1p-10;    /* accuracy of an instant relative to the step, in units of rtol */
 static const double NEAR = 0x1p6;              /* difference at a change relative to the largest one, likewise */
 static const double HELD_SIDE = 1, CHANGED_SIDE = 2;     /* |side|: the sign at the start of the step; that after a change at its start */
@@ -180,6 +181,14 @@ static int meet_from_both_sides(zd_step_loop *loop)
     return ZD_COLLAPSED;
 }
 
+/* True of the step after a change. */
+static int is_short(const zd_switching *self)
+{
+    for (int i = 0; i < self->count; i++)
+        if (fabs(self->side[i]) == CHANGED_SIDE) return 1;
+    return 0;
+}
+
 /* Ends the step at the change that was located: the next one has the other sides. */
 static int change(zd_step_loop *loop)
 {
@@ -187,14 +196,24 @@ static int change(zd_step_loop *loop)
     const int is_met_again = fabs(self->side[self->sought]) == CHANGED_SIDE
         && self->bracket.b - loop->stepper->last.t <= 2 * self->bracket.resolution;
     if (is_met_again && loop->control.collapse.share > 0) return meet_from_both_sides(loop);
-    for (int i = 0; i < self->count; i++)
-        if (i == self->sought || has_passed(self, i, self->now)) self->side[i] = copysign(CHANGED_SIDE, -self->side[i]);
-    if (is_met_again) zd_switching_release(loop);
+    for (int i = 0; i < self->count; i++) {
+        const int changes = i == self->sought || has_passed(self, i, self->now);
+        self->side[i] = changes && !is_met_again ? copysign(CHANGED_SIDE, -self->side[i]) : 0;
+    }
     self->sought = -1;
     self->is_cut = 1;
-    loop->control.h = self->h;
+    loop->control.h = SHORT_STEP * self->h;
     loop->control.stiffness = (zd_stiffness){0};
     return ZD_DONE;
+}
+
+/* Lets the comparisons decide after a step without a change; the next one is as long as before the last change. */
+static void end_hold(zd_step_loop *loop)
+{
+    zd_switching *self = &loop->switching;
+    self->is_cut = is_short(self);
+    if (self->is_cut) loop->control.h = self->h;
+    zd_switching_release(loop);
 }
 
 /* After an accepted attempt with switches held; true if another follows, whose size is set. */
@@ -206,10 +225,10 @@ static int goes_on(zd_step_loop *loop, int *status)
     if (self->sought < 0) {
         const int first = first_of(self);
         if (first < 0) {
-            zd_switching_release(loop);
+            end_hold(loop);
             return 0;
         }
-        self->h = loop->control.bounded;
+        if (!is_short(self)) self->h = loop->control.bounded;
         seek(loop, first, t, self->now);
     } else {
         if (!has_passed(self, self->sought, self->now)) zd_copy_all(self->count, self->now, self->at_a);

@@ -19,6 +19,9 @@ JUMPS = {
     "relay": (lambda x: np.where(x > 0, -1.0, 1.0), [lambda t, x, v: x], lambda t, x, v, a: -1.0 if a else 1.0),
     "zones": (lambda x: np.select([x < -0.2, x < 0.2], [3.0, 0.5], -4.0), [lambda t, x, v: x + 0.2, lambda t, x, v: x - 0.2],
               lambda t, x, v, a, b: -4.0 if b else 0.5 if a else 3.0),
+    "stairs": (lambda x: np.select([x < -0.3, x < 0.0, x < 0.2], [4.0, 2.0, -1.0], -3.0),      # which are met again in a step
+               [lambda t, x, v: x + 0.3, lambda t, x, v: x, lambda t, x, v: x - 0.2],
+               lambda t, x, v, a, b, c: -3.0 if c else -1.0 if b else 2.0 if a else 4.0),
     "band": (lambda x: 20.0 if 0.1 < x < 0.12 else -3 * x, [lambda t, x, v: x - 0.1, lambda t, x, v: 0.12 - x],
              lambda t, x, v, a, b: 20.0 if a and b else -3 * x),
     "product": (lambda x, v: -5 * x + np.where(x * v > 0.1, -1.0, 0.2), [lambda t, x, v: x * v - 0.1],
