@@ -42,17 +42,9 @@ int zd_watch_move(zd_watch *self, double t)
 
 static int find_rates(const zd_watch *self, zd_end_rates *rates)
 {
-    rates->are_known = 0;
-    zd_motion *motion = self->output->stepper->motion;
-    zd_point *point = motion->point;
-    int status = zd_motion_accelerate(motion);
-    if (!status && zd_has_A(point->system)) status = zd_point_need_times_A(point, 0);
-    if (status) return status;
-    if (zd_has_A(point->system)) zd_point_rate(point, point->v, rates->pdot);
-    else zd_copy_all(point->system->nv, point->v, rates->pdot);
-    zd_copy_all(point->system->nv, point->vdot, rates->vdot);
-    rates->are_known = 1;
-    return ZD_DONE;
+    const int status = zd_stepper_rates(self->output->stepper, rates->pdot, rates->vdot);
+    rates->are_known = !status;
+    return status;
 }
 
 /* *value <- the event function where the motion would be after a time s at the present rates */

@@ -71,6 +71,19 @@ int zd_stepper_return(zd_stepper *self)
     return zd_motion_updates(motion) ? motion->equations->pack(motion, self->y) : ZD_DONE;
 }
 
+int zd_stepper_rates(const zd_stepper *self, double *pdot, double *vdot)
+{
+    zd_motion *motion = self->motion;
+    zd_point *point = motion->point;
+    int status = zd_motion_accelerate(motion);
+    if (!status && zd_has_A(point->system)) status = zd_point_need_times_A(point, 0);
+    if (status) return status;
+    if (zd_has_A(point->system)) zd_point_rate(point, point->v, pdot);
+    else zd_copy_all(point->system->nv, point->v, pdot);
+    zd_copy_all(point->system->nv, point->vdot, vdot);
+    return ZD_DONE;
+}
+
 /* ---- places ---- */
 
 int zd_stepper_set_state(zd_stepper *self, double t, const double *p, const double *v)

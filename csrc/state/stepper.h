@@ -30,6 +30,8 @@ void zd_stepper_create(zd_stepper *self, zd_arena *arena, zd_motion *motion, con
                      zd_variables dependent, const zd_system *independent);
 /* Integrates y from t to t + h. */
 int zd_stepper_make(zd_stepper *self, double h);
+/* pdot (nq,) and vdot (nv,) at the point */
+int zd_stepper_rates(const zd_stepper *self, double *pdot, double *vdot);
 /* Saves the start of a step of size h, so that it can be undone. */
 void zd_stepper_save_start(zd_stepper *self, double h);
 /* Returns point and y to the start of the step. */

@@ -90,6 +90,8 @@ typedef struct zd_switching {
     double *side;           /* (count,) sign that a difference is taken to have, see zd_system.switches */
     double *before, *now;   /* (count,) differences at the start and the end of the attempt */
     double t_before;        /* s: time of the first */
+    double *rate_before, *rate_now; /* (count,) their rates */
+    zd_state ahead;         /* a state a little later */
     zd_bracket bracket;     /* s: the instant that is sought */
     double *largest;        /* (count,) the largest |difference| at samples; of steps that are repeated */
     double *at_a;           /* (count,) differences at its first end */
@@ -97,6 +99,7 @@ typedef struct zd_switching {
     int holds;              /* true if a side is not zero at its place */
     double h;               /* s: size of the step in which it was found */
     int is_released;        /* true if the step has failed with switches held */
+    int is_shortened;       /* true if the step ends where a difference is least */
     int is_cut;             /* true if the step ended at a change */
 } zd_switching;
 

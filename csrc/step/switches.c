@@ -15,8 +15,11 @@
 
 static const double SHORT_STEP = 0x1p-6;        /* size of the step after a change, relative to that in which it was found */
 static const double SHARE_OF_STEP = 0x1p-10;    /* accuracy of an instant relative to the step, in units of rtol */
-static const double NEAR = 0x1p6;              /* difference at a change relative to the largest one, likewise */
-static const double HELD_SIDE = 1, CHANGED_SIDE = 2;     /* |side|: the sign at the start of the step; that after a change at its start */
+static const double SMALL_CHANGE = 0x1p-20;     /* change of coordinates by which rates are found */
+static const double MIN_VALUE = 0.25;           /* ratio of a least difference to those at the ends, below which a step ends there */
+static const double MIN_SHARE = 0x1p-20;        /* distance of that from the ends, relative to the step */
+static const double NEAR = 0x1p6;               /* difference at a change relative to the largest one, likewise */
+static const double HELD_SIDE = 1, CHANGED_SIDE = 2;    /* |side|: the sign at the start of the step; that after a change at its start */
 
 zd_switching zd_switching_create(zd_arena *arena, const zd_motion *motion)
 {
@@ -27,6 +30,9 @@ zd_switching zd_switching_create(zd_arena *arena, const zd_motion *motion)
         .side = zd_arena_doubles(arena, count),
         .before = zd_arena_doubles(arena, count),
         .now = zd_arena_doubles(arena, count),
+        .rate_before = zd_arena_doubles(arena, count),
+        .rate_now = zd_arena_doubles(arena, count),
+        .ahead = count ? zd_state_create(arena, motion) : (zd_state){0},
         .at_a = zd_arena_doubles(arena, count),
         .largest = zd_arena_doubles(arena, count),
         .sought = -1, .t_before = NAN,
@@ -42,6 +48,25 @@ static void evaluate(const zd_step_loop *loop, double t, const double *p, const 
 static void evaluate_now(const zd_step_loop *loop, double *value)
 {
     evaluate(loop, loop->stepper->t, loop->motion->point->p, loop->motion->point->v, value);
+}
+
+/* now, rate (count,) <- differences at the point, and their rates by a small change, 0 where they cannot be found. The scratch memory is at
+ * the point afterwards, for terms that are evaluated there later. */
+static void find_rates(const zd_step_loop *loop, double *now, double *rate)
+{
+    const zd_switching *self = &loop->switching;
+    zd_point *point = loop->motion->point;
+    const int nq = point->system->nq, nv = point->system->nv, known = point->known;
+    double *p = self->ahead.p, *v = self->ahead.v;
+    zd_clear(self->count, rate);
+    const int status = zd_stepper_rates(loop->stepper, p, v);
+    point->known = known;
+    const double s = status ? 0 : SMALL_CHANGE / fmax(1, fmax(zd_max_abs(nq, p), zd_max_abs(nv, v)));
+    for (int i = 0; s > 0 && i < nq; i++) p[i] = point->p[i] + s * p[i];
+    for (int i = 0; s > 0 && i < nv; i++) v[i] = point->v[i] + s * v[i];
+    if (s > 0) evaluate(loop, loop->stepper->t + s, p, v, rate);
+    evaluate_now(loop, now);
+    for (int i = 0; s > 0 && i < self->count; i++) rate[i] = (rate[i] - now[i]) / s;
 }
 
 static int have_different_signs(double a, double b) { return a > 0 ? b < 0 : a < 0 && b > 0; }
@@ -74,9 +99,10 @@ int zd_switching_begin(zd_step_loop *loop)
 {
     zd_switching *self = &loop->switching;
     self->sought = -1;
-    self->is_released = self->is_cut = 0;
+    self->is_released = self->is_cut = self->is_shortened = 0;
+    if (self->t_before != loop->stepper->t) zd_clear(self->count, self->side);      /* as an event within the step ended it */
     int status = write_sides(loop) ? zd_renew(loop) : ZD_DONE;
-    if (!status && self->t_before != loop->stepper->t) evaluate_now(loop, self->before);
+    if (!status && self->t_before != loop->stepper->t) find_rates(loop, self->before, self->rate_before);
     if (status || !self->holds) return status;
     return zd_closed_form_leave(loop->motion) ? zd_safeguards_begin(loop->safeguards, loop->step) : ZD_DONE;
 }
@@ -114,12 +140,21 @@ static int return_to_start(zd_step_loop *loop)
     return status ? status : zd_safeguards_begin(loop->safeguards, loop->step);
 }
 
-/* Holds the switches that change within an attempt, for another; false if there are none. */
+/* Accuracy of an instant between t0 and t1, in s */
+static double resolution_of(const zd_step_loop *loop, double t0, double t1)
+{
+    return fmax(ZD_TIME_RESOLUTION * fmax(fabs(t0), fabs(t1)), SHARE_OF_STEP * loop->settings->rtol * (t1 - t0));
+}
+
+/* Holds the switches that change within an attempt, for another; false if there are none. At its start, one has changed. */
 static int hold(zd_step_loop *loop, int *status)
 {
     zd_switching *self = &loop->switching;
-    for (int i = 0; i < self->count; i++)
-        if (have_different_signs(self->before[i], self->now[i])) self->side[i] = copysign(HELD_SIDE, self->before[i]);
+    const double t0 = loop->stepper->last.t, resolution = 2 * resolution_of(loop, t0, t0 + loop->control.bounded);
+    for (int i = 0; i < self->count; i++) {
+        const double a = self->before[i], b = self->now[i], rate = self->rate_before[i];
+        if (have_different_signs(a, b)) self->side[i] = copysign(HELD_SIDE, fabs(a) <= fabs(rate) * resolution ? rate : a);
+    }
     if (!write_sides(loop)) return 0;
     loop->motion->statistics.rejected++;
     zd_closed_form_leave_step(loop->motion);
@@ -131,10 +166,10 @@ static int hold(zd_step_loop *loop, int *status)
 static void seek(zd_step_loop *loop, int i, double t, const double *value)
 {
     zd_switching *self = &loop->switching;
-    const double t0 = loop->stepper->last.t, rounding = ZD_TIME_RESOLUTION * fmax(fabs(t0), fabs(t));
+    const double t0 = loop->stepper->last.t;
     const double at_start = copysign(fmax(fabs(self->before[i]), DBL_MIN), self->side[i]);
     self->sought = i;
-    self->bracket = zd_bracket_of(t0, t, at_start, value[i], fmax(rounding, SHARE_OF_STEP * loop->settings->rtol * (t - t0)));
+    self->bracket = zd_bracket_of(t0, t, at_start, value[i], resolution_of(loop, t0, t));
     zd_copy_all(self->count, self->before, self->at_a);
 }
 
@@ -196,13 +231,11 @@ static int change(zd_step_loop *loop)
     const int is_met_again = fabs(self->side[self->sought]) == CHANGED_SIDE
         && self->bracket.b - loop->stepper->last.t <= 2 * self->bracket.resolution;
     if (is_met_again && loop->control.collapse.share > 0) return meet_from_both_sides(loop);
-    for (int i = 0; i < self->count; i++) {
-        const int changes = i == self->sought || has_passed(self, i, self->now);
-        self->side[i] = changes && !is_met_again ? copysign(CHANGED_SIDE, -self->side[i]) : 0;
-    }
+    for (int i = 0; i < self->count; i++)
+        self->side[i] = !is_met_again && (i == self->sought || has_passed(self, i, self->now)) ? copysign(CHANGED_SIDE, -self->side[i]) : 0;
     self->sought = -1;
     self->is_cut = 1;
-    loop->control.h = SHORT_STEP * self->h;
+    loop->control.h = is_met_again ? self->h : SHORT_STEP * self->h;
     loop->control.stiffness = (zd_stiffness){0};
     return ZD_DONE;
 }
@@ -216,6 +249,40 @@ static void end_hold(zd_step_loop *loop)
     zd_switching_release(loop);
 }
 
+/* Share of the step after which a cubic polynomial with these values, of one sign, and slopes at its ends is nearest to zero or has passed
+ * it; 1: there is none. */
+static double least_of(double a, double slope_a, double b, double slope_b)
+{
+    const double cubic = slope_a + slope_b - 2 * (b - a), square = 3 * (b - a) - 2 * slope_a - slope_b;
+    const double root = square * square - 3 * cubic * slope_a, q = -(square + copysign(sqrt(fmax(root, 0)), square));
+    const double at[] = {q / (3 * cubic), slope_a / q};
+    double found = 1, least = MIN_VALUE * fmin(fabs(a), fabs(b));
+    for (int k = 0; root > 0 && k < 2; k++) {
+        const double x = at[k], value = copysign(1, a) * (((cubic * x + square) * x + slope_a) * x + a);
+        if (!(x > MIN_SHARE && x < 1 - MIN_SHARE && value < least)) continue;
+        found = x;
+        least = value;
+    }
+    return found;
+}
+
+/* Shortens a step within which a switch may change twice, to where its difference is least; true if another attempt follows. */
+static int shorten(zd_step_loop *loop, int *status)
+{
+    zd_switching *self = &loop->switching;
+    const double h = loop->stepper->t - loop->stepper->last.t;
+    double share = 1;
+    find_rates(loop, self->now, self->rate_now);
+    for (int i = 0; i < self->count; i++)
+        share = fmin(share, least_of(self->before[i], h * self->rate_before[i], self->now[i], h * self->rate_now[i]));
+    if (share == 1 || self->is_shortened || is_short(self)) return 0;
+    self->is_shortened = 1;
+    loop->control.h = share * h;
+    loop->motion->statistics.rejected++;
+    *status = return_to_start(loop);
+    return !*status;
+}
+
 /* After an accepted attempt with switches held; true if another follows, whose size is set. */
 static int goes_on(zd_step_loop *loop, int *status)
 {
@@ -225,6 +292,7 @@ static int goes_on(zd_step_loop *loop, int *status)
     if (self->sought < 0) {
         const int first = first_of(self);
         if (first < 0) {
+            if (shorten(loop, status)) return 1;
             end_hold(loop);
             return 0;
         }
@@ -251,8 +319,10 @@ static int goes_on(zd_step_loop *loop, int *status)
 
 static void keep_differences(zd_step_loop *loop)
 {
-    loop->switching.t_before = loop->stepper->t;
-    zd_copy_all(loop->switching.count, loop->switching.now, loop->switching.before);
+    zd_switching *self = &loop->switching;
+    self->t_before = loop->stepper->t;
+    zd_copy_all(self->count, self->now, self->before);
+    zd_copy_all(self->count, self->rate_now, self->rate_before);
 }
 
 int zd_switching_repeats(zd_step_loop *loop, int *status)
@@ -272,6 +342,8 @@ int zd_switching_repeats(zd_step_loop *loop, int *status)
     }
     evaluate_now(loop, self->now);
     if (is_held ? goes_on(loop, status) : !self->is_released && hold(loop, status)) return 1;
-    if (is_accepted && !*status) keep_differences(loop);
+    if (!is_accepted || *status) return 0;
+    if (!is_held && shorten(loop, status)) return 1;
+    keep_differences(loop);
     return 0;
 }

@@ -176,6 +176,29 @@ def test_open_runs_copies_ensembles_and_compiled_mechanisms_have_them():
     assert_close(zd.simulate(m.system(compiled=True), END, **settings).p[-1], sol.p[-1], 1e-9, scale=1.0)
 
 
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("rtol", [1e-6, 1e-9])
+def test_a_region_that_is_entered_and_left_in_a_step_is_not_passed_over(method, rtol):
+    """x = 1/2 - v t + t^2 / 2 goes below 0 by d, where the acceleration is 3."""
+    for depth in np.geomspace(1e-8, 0.1, 15):
+        fast, slow = np.sqrt(1 + 2 * depth), np.sqrt(2 * depth)
+        rest = 4 - (fast - slow) - 2 * slow / 3
+        x = zd.simulate(particle(lambda x: 1.0 if x > 0 else 3.0).system(), 4.0, v0=[-fast, 0], rtol=rtol, atol=1e-3 * rtol,
+                        integrator=method).p[-1, 0]
+        assert_close(x, slow * rest + rest**2 / 2, 20 * rtol)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_run_goes_on_from_an_event_within_a_step_that_ended_at_a_jump(method):
+    m = particle(JUMPS["relay"][0])
+    for value in np.linspace(-0.9, 0.9, 7):
+        run = zd.Run(m, rtol=1e-9, atol=1e-12, integrator=method,
+                     events=zd.Event("body.velocity.x", value=value, terminal=True))
+        while run.t < 6.0:
+            run.advance_to(6.0)
+        assert_close(run.p[0], -0.5, 1e-8)
+
+
 def test_another_state_forgets_the_side():
     run = zd.Run(particle(JUMPS["relay"][0]), rtol=1e-9, integrator="dop853")
     while run.p[0] > 1e-9:
