@@ -179,7 +179,7 @@ def test_open_runs_copies_ensembles_and_compiled_mechanisms_have_them():
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("rtol", [1e-6, 1e-9])
 def test_a_region_that_is_entered_and_left_in_a_step_is_not_passed_over(method, rtol):
-    """x = 1/2 - v t + t^2 / 2 goes below 0 by d, where the acceleration is 3."""
+    """The position, x = 1/2 - v t + t^2 / 2 goes below 0 by d, where the acceleration is 3."""
     for depth in np.geomspace(1e-8, 0.1, 15):
         fast, slow = np.sqrt(1 + 2 * depth), np.sqrt(2 * depth)
         rest = 4 - (fast - slow) - 2 * slow / 3
