@@ -88,6 +88,7 @@ static inline int zd_control_accepts(const zd_control *control) { return control
 typedef struct zd_switching {
     int count;
     double *side;           /* (count,) sign that a difference is taken to have, see zd_system.switches */
+    double *written;        /* (count,) the same at its place */
     double *before, *now;   /* (count,) differences at the start and the end of the attempt */
     double t_before;        /* s: time of the first */
     double *rate_before, *rate_now; /* (count,) their rates */

@@ -16,6 +16,7 @@
 static const double SHORT_STEP = 0x1p-6;        /* size of the step after a change, relative to that in which it was found */
 static const double SHARE_OF_STEP = 0x1p-10;    /* accuracy of an instant relative to the step, in units of rtol */
 static const double SMALL_CHANGE = 0x1p-20;     /* change of coordinates by which rates are found */
+static const double MIN_RATE = 1e-3;            /* ratio of the rates at which both sides lead to a jump */
 static const double MIN_VALUE = 0.25;           /* ratio of a least difference to those at the ends, below which a step ends there */
 static const double MIN_SHARE = 0x1p-20;        /* distance of that from the ends, relative to the step */
 static const double NEAR = 0x1p6;               /* difference at a change relative to the largest one, likewise */
@@ -27,11 +28,9 @@ zd_switching zd_switching_create(zd_arena *arena, const zd_motion *motion)
     const int count = switches ? switches->count : 0;
     return (zd_switching){
         .count = count,
-        .side = zd_arena_doubles(arena, count),
-        .before = zd_arena_doubles(arena, count),
-        .now = zd_arena_doubles(arena, count),
-        .rate_before = zd_arena_doubles(arena, count),
-        .rate_now = zd_arena_doubles(arena, count),
+        .side = zd_arena_doubles(arena, count), .written = zd_arena_doubles(arena, count),
+        .before = zd_arena_doubles(arena, count), .now = zd_arena_doubles(arena, count),
+        .rate_before = zd_arena_doubles(arena, count), .rate_now = zd_arena_doubles(arena, count),
         .ahead = count ? zd_state_create(arena, motion) : (zd_state){0},
         .at_a = zd_arena_doubles(arena, count),
         .largest = zd_arena_doubles(arena, count),
@@ -74,16 +73,15 @@ static int have_different_signs(double a, double b) { return a > 0 ? b < 0 : a <
 /* True if values have the other sign than a switch is held at. */
 static int has_passed(const zd_switching *self, int i, const double *value) { return have_different_signs(self->side[i], value[i]); }
 
-/* Writes the sides to their places; true if one is new there. */
+/* Writes the sides to their places; true if one is new. */
 static int write_sides(zd_step_loop *loop)
 {
-    const zd_switches *switches = loop->motion->system.switches;
-    int is_new = 0;
-    loop->switching.holds = 0;
-    for (int i = 0; i < switches->count; i++) {
-        is_new |= *switches->place[i] != loop->switching.side[i];
-        *switches->place[i] = loop->switching.side[i];
-        loop->switching.holds |= loop->switching.side[i] != 0;
+    zd_switching *self = &loop->switching;
+    int is_new = self->holds = 0;
+    for (int i = 0; i < self->count; i++) {
+        is_new |= self->written[i] != self->side[i];
+        self->written[i] = *loop->motion->system.switches->place[i] = self->side[i];
+        self->holds |= self->side[i] != 0;
     }
     return is_new;
 }
@@ -195,20 +193,21 @@ static int earlier_of(const zd_switching *self)
     return -1;
 }
 
-/* ZD_COLLAPSED at a jump that is met from both sides, with the velocity whose rate jumps most. */
+/* ZD_COLLAPSED at a jump to which both sides lead, with the velocity whose rate jumps most. */
 static int meet_from_both_sides(zd_step_loop *loop)
 {
     zd_motion *motion = loop->motion;
     zd_collapse *collapse = &loop->control.collapse;
-    double *side = &loop->switching.side[loop->switching.sought];
-    int status = zd_motion_accelerate(motion);
-    if (status) return status;
+    zd_switching *self = &loop->switching;
+    double *side = &self->side[self->sought];
+    find_rates(loop, self->now, self->rate_before);
     zd_copy_all(motion->system.nv, motion->point->vdot, collapse->rate);
     *side = -*side;
     write_sides(loop);
     motion->point->known &= motion->point->constant;
-    status = zd_motion_accelerate(motion);
-    if (status) return status;
+    find_rates(loop, self->now, self->rate_now);
+    const double here = self->rate_now[self->sought] * *side, there = -self->rate_before[self->sought] * *side;    /* negative: to the jump */
+    if (!(fmax(here, there) < MIN_RATE * fmin(here, there))) return ZD_DONE;
     for (int i = 0; i < motion->system.nv; i++)
         collapse->change[i] = fabs(motion->point->vdot[i] - collapse->rate[i]) * motion->point->inverse_unit[i];
     collapse->count = 0;
@@ -230,7 +229,8 @@ static int change(zd_step_loop *loop)
     zd_switching *self = &loop->switching;
     const int is_met_again = fabs(self->side[self->sought]) == CHANGED_SIDE
         && self->bracket.b - loop->stepper->last.t <= 2 * self->bracket.resolution;
-    if (is_met_again && loop->control.collapse.share > 0) return meet_from_both_sides(loop);
+    const int status = is_met_again && loop->control.collapse.share > 0 ? meet_from_both_sides(loop) : ZD_DONE;
+    if (status) return status;
     for (int i = 0; i < self->count; i++)
         self->side[i] = !is_met_again && (i == self->sought || has_passed(self, i, self->now)) ? copysign(CHANGED_SIDE, -self->side[i]) : 0;
     self->sought = -1;

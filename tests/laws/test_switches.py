@@ -199,6 +199,21 @@ def test_a_run_goes_on_from_an_event_within_a_step_that_ended_at_a_jump(method):
         assert_close(run.p[0], -0.5, 1e-8)
 
 
+def test_copies_and_saved_states_continue_with_the_same_bits():
+    law, settings = (lambda x: (-1.0 if x > 0 else 1.0) - 0.5 * x**3), {"rtol": 1e-8, "atol": 1e-10, "integrator": "radau"}
+    run = zd.Run(particle(law), **settings)
+    states, copies = [], []
+    for _ in range(120):
+        copies.append((run.copy(), zd.Run(particle(law), **settings)))
+        copies[-1][1].restore(run.save())
+        run.step()
+        states.append((run.t, *run.p, *run.v))
+    for step, others in enumerate(copies[:-2]):
+        for other in others:
+            other.step(3)
+            assert (other.t, *other.p, *other.v) == states[step + 2]
+
+
 def test_another_state_forgets_the_side():
     run = zd.Run(particle(JUMPS["relay"][0]), rtol=1e-9, integrator="dop853")
     while run.p[0] > 1e-9:
