@@ -100,7 +100,7 @@ typedef struct zd_switching {
     int holds;              /* true if a side is not zero at its place */
     double h;               /* s: size of the step in which it was found */
     int is_released;        /* true if the step has failed with switches held */
-    int is_shortened;       /* true if the step ends where a difference is least */
+    int is_shortened;       /* true if the step ends at a minimum of a difference */
     int is_cut;             /* true if the step ended at a change */
 } zd_switching;
 

@@ -16,10 +16,10 @@
 static const double SHORT_STEP = 0x1p-6;        /* size of the step after a change, relative to that in which it was found */
 static const double SHARE_OF_STEP = 0x1p-10;    /* accuracy of an instant relative to the step, in units of rtol */
 static const double SMALL_CHANGE = 0x1p-20;     /* change of coordinates by which rates are found */
-static const double MIN_RATE = 1e-3;            /* ratio of the rates at which both sides lead to a jump */
-static const double MIN_VALUE = 0.25;           /* ratio of a least difference to those at the ends, below which a step ends there */
-static const double MIN_SHARE = 0x1p-20;        /* distance of that from the ends, relative to the step */
-static const double NEAR = 0x1p6;               /* difference at a change relative to the largest one, likewise */
+static const double MIN_RATE = 1e-3;            /* ratio of the smaller rate to the larger one, at which both sides lead to a jump */
+static const double MIN_VALUE = 0.25;           /* ratio of a minimum to the values at the ends, below which a step ends there */
+static const double MIN_SHARE = 0x1p-20;        /* distance of a minimum from the ends, relative to the step */
+static const double CHANGE_TOLERANCE = 0x1p6;   /* difference at a change relative to the largest one at samples, in units of rtol */
 static const double HELD_SIDE = 1, CHANGED_SIDE = 2;    /* |side|: the sign at the start of the step; that after a change at its start */
 
 zd_switching zd_switching_create(zd_arena *arena, const zd_motion *motion)
@@ -117,8 +117,8 @@ int zd_switching_hold_between(zd_step_loop *loop)
 {
     zd_switching *self = &loop->switching;
     for (int i = 0; i < self->count; i++) {
-        const double a = self->before[i], b = self->now[i], larger = fabs(a) > fabs(b) ? a : b;
-        self->side[i] = fmin(fabs(a), fabs(b)) <= NEAR * loop->settings->rtol * self->largest[i] ? copysign(HELD_SIDE, larger) : 0;
+        const double a = self->before[i], b = self->now[i], tolerance = CHANGE_TOLERANCE * loop->settings->rtol * self->largest[i];
+        self->side[i] = fmin(fabs(a), fabs(b)) <= tolerance ? copysign(HELD_SIDE, fabs(a) > fabs(b) ? a : b) : 0;
     }
     write_sides(loop);
     return self->holds;
@@ -144,7 +144,7 @@ static double resolution_of(const zd_step_loop *loop, double t0, double t1)
     return fmax(ZD_TIME_RESOLUTION * fmax(fabs(t0), fabs(t1)), SHARE_OF_STEP * loop->settings->rtol * (t1 - t0));
 }
 
-/* Holds the switches that change within an attempt, for another; false if there are none. At its start, one has changed. */
+/* Holds the switches that change within an attempt, for another; false if there are none. A change where it begins has been made already. */
 static int hold(zd_step_loop *loop, int *status)
 {
     zd_switching *self = &loop->switching;
@@ -206,8 +206,9 @@ static int meet_from_both_sides(zd_step_loop *loop)
     write_sides(loop);
     motion->point->known &= motion->point->constant;
     find_rates(loop, self->now, self->rate_now);
-    const double here = self->rate_now[self->sought] * *side, there = -self->rate_before[self->sought] * *side;    /* negative: to the jump */
-    if (!(fmax(here, there) < MIN_RATE * fmin(here, there))) return ZD_DONE;
+    /* Negative: towards the jump, on this side and on the one before */
+    const double rate = self->rate_now[self->sought] * *side, before = -self->rate_before[self->sought] * *side;
+    if (!(fmax(rate, before) < MIN_RATE * fmin(rate, before))) return ZD_DONE;
     for (int i = 0; i < motion->system.nv; i++)
         collapse->change[i] = fabs(motion->point->vdot[i] - collapse->rate[i]) * motion->point->inverse_unit[i];
     collapse->count = 0;
@@ -251,22 +252,22 @@ static void end_hold(zd_step_loop *loop)
 
 /* Share of the step after which a cubic polynomial with these values, of one sign, and slopes at its ends is nearest to zero or has passed
  * it; 1: there is none. */
-static double least_of(double a, double slope_a, double b, double slope_b)
+static double minimum_of(double a, double slope_a, double b, double slope_b)
 {
     const double cubic = slope_a + slope_b - 2 * (b - a), square = 3 * (b - a) - 2 * slope_a - slope_b;
     const double root = square * square - 3 * cubic * slope_a, q = -(square + copysign(sqrt(fmax(root, 0)), square));
     const double at[] = {q / (3 * cubic), slope_a / q};
-    double found = 1, least = MIN_VALUE * fmin(fabs(a), fabs(b));
+    double found = 1, minimum = MIN_VALUE * fmin(fabs(a), fabs(b));
     for (int k = 0; root > 0 && k < 2; k++) {
         const double x = at[k], value = copysign(1, a) * (((cubic * x + square) * x + slope_a) * x + a);
-        if (!(x > MIN_SHARE && x < 1 - MIN_SHARE && value < least)) continue;
+        if (!(x > MIN_SHARE && x < 1 - MIN_SHARE && value < minimum)) continue;
         found = x;
-        least = value;
+        minimum = value;
     }
     return found;
 }
 
-/* Shortens a step within which a switch may change twice, to where its difference is least; true if another attempt follows. */
+/* Shortens a step within which a switch may change twice, to the minimum of its difference; true if another attempt follows. */
 static int shorten(zd_step_loop *loop, int *status)
 {
     zd_switching *self = &loop->switching;
@@ -274,7 +275,7 @@ static int shorten(zd_step_loop *loop, int *status)
     double share = 1;
     find_rates(loop, self->now, self->rate_now);
     for (int i = 0; i < self->count; i++)
-        share = fmin(share, least_of(self->before[i], h * self->rate_before[i], self->now[i], h * self->rate_now[i]));
+        share = fmin(share, minimum_of(self->before[i], h * self->rate_before[i], self->now[i], h * self->rate_now[i]));
     if (share == 1 || self->is_shortened || is_short(self)) return 0;
     self->is_shortened = 1;
     loop->control.h = share * h;

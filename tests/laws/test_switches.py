@@ -86,7 +86,7 @@ def jump(request):
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("rtol", [1e-6, 1e-9, 1e-12])
 def test_steps_end_where_a_law_jumps(jump, method, rtol):
-    """Errors are those of smooth motion; by the error control alone they are a hundred to a hundred thousand times as large."""
+    """Errors are those of smooth motion; by the error control alone they are some hundred times as large."""
     law, true, changes = jump
     sol = zd.simulate(particle(law), END, integrator=method, rtol=rtol, atol=1e-3 * rtol)
     assert_close([sol["body.position.x"][-1], sol["body.velocity.x"][-1]], true, 20 * rtol + 2e-12, scale=1.0)

@@ -25,8 +25,8 @@ void zd_open_runs_advance(const zd_open_runs *self, int64_t first, int64_t count
     for (int64_t i = first; i < first + count; i++) {
         if (self->status[i] < 0) continue;
         int status = zd_run_set_goal(self->run[i], steps, t);
-        if (!status) do status = zd_run_advance(self->run[i], NULL, SLICE);
-            while (status == ZD_PAUSED);
+        if (!status) status = ZD_PAUSED;
+        while (status == ZD_PAUSED) status = zd_run_advance(self->run[i], NULL, SLICE);
         self->status[i] = status;
         read_state(self, i);
     }
