@@ -20,6 +20,7 @@ Call first, by task (``m`` is a mechanism or other system, ``sol`` a solution)::
     linearize                   zd.linearize(m): modes, frequencies, matrices A, B, C, D
     prescribe a motion          zd.kinematics(m, ...); without time: zd.trace, zd.reach
     find forces of a motion     zd.inverse_dynamics
+    size a flywheel             zd.flywheel(m, "crank.angle", speed=31.4)
     vary parameters             zd.ensemble(m, 10.0, parameters=...); zd.grid for all combinations
     choose settings             zd.tune, zd.work_precision; certified error: zd.reference
     check equations             zd.check(m)
@@ -80,23 +81,21 @@ __all__ = [
     "AccuracyWarning", "Baumgarte", "Bifurcation", "BranchJump", "CacheWarning", "CompilationFailed", "CorrectionFailed",
     "CorrectionWarning", "CostWarning", "Diverged", "DrawingWarning", "EnergyCorrection", "EquilibriumFailed", "Event", "InUse",
     "InconsistentStart", "InconsistentSystem", "InputRefused", "Instant", "Interrupted", "LockedWarning", "ManyRuns",
-    "Mechanism", "NoCompilerWarning", "NoUniqueMotion", "Projection", "Run",
-    "SingularSystem", "Solution", "StabilityWarning", "StaleCore",
-    "StateWarning", "StepFailed", "Structure", "System", "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator",
-    "WorkerLost", "WrongState", "ZerodriftError", "acceleration", "assemble", "bias", "block", "c_source", "check", "compare",
-    "corrections", "ensemble", "equilibria", "equilibrium", "every", "explore", "fmu", "formulations", "from_mechanics",
-    "get_include", "grid", "inertia", "integrators", "inverse_dynamics", "jacobian", "kinematics", "linearize", "linkage",
-    "load", "mass_matrix", "models", "native", "numba_signature", "plot", "project", "reach", "record_size", "reference",
-    "simulate", "stability_map", "symbolic", "systems", "table", "trace", "transmission_angle", "tune", "view",
-    "work_precision",
+    "Mechanism", "NoCompilerWarning", "NoUniqueMotion", "Projection", "Run", "SingularSystem", "Solution", "StabilityWarning",
+    "StaleCore", "StateWarning", "StepFailed", "Structure", "System", "UnreachableTolerance", "UnsuitedFormulation",
+    "UnsuitedIntegrator", "WorkerLost", "WrongState", "ZerodriftError", "acceleration", "assemble", "bias", "block", "c_source",
+    "check", "compare", "corrections", "ensemble", "equilibria", "equilibrium", "every", "explore", "flywheel", "fmu",
+    "formulations", "from_mechanics", "get_include", "grid", "inertia", "integrators", "inverse_dynamics", "jacobian",
+    "kinematics", "linearize", "linkage", "load", "mass_matrix", "models", "native", "numba_signature", "plot", "project",
+    "reach", "record_size", "reference", "simulate", "stability_map", "symbolic", "systems", "table", "trace",
+    "transmission_angle", "tune", "view", "work_precision",
 ]
 _LATER = {      # imported, or made, at first use
     "Baumgarte": "runs.arguments.methods", "EnergyCorrection": "runs.arguments.methods", "ManyRuns": "runs.open.many_runs",
-    "Mechanism": "mechanisms.mechanism",
-    "Projection": "runs.arguments.methods", "Run": "runs.open.run", "System": "systems.callables", "bias": "analysis.matrices",
-    "block": "export.block", "c_source": "export.c_source", "check": "studies.check",
-    "ensemble": "ensembles.ensemble", "fmu": "export.fmu",
-    "equilibria": "analysis.equilibria", "equilibrium": "analysis.equilibrium", "explore": "player.explore",
+    "Mechanism": "mechanisms.mechanism", "Projection": "runs.arguments.methods", "Run": "runs.open.run",
+    "System": "systems.callables", "bias": "analysis.matrices", "block": "export.block", "c_source": "export.c_source",
+    "check": "studies.check", "ensemble": "ensembles.ensemble", "fmu": "export.fmu", "equilibria": "analysis.equilibria",
+    "equilibrium": "analysis.equilibrium", "explore": "player.explore", "flywheel": "studies.flywheel",
     "from_mechanics": "symbolics.mechanics", "get_include": "systems.native", "grid": "ensembles.runs",
     "inverse_dynamics": "analysis.inverse_dynamics", "jacobian": "analysis.matrices", "kinematics": "analysis.kinematics",
     "linearize": "analysis.linearize", "linkage": "mechanisms.linkage", "load": "files", "mass_matrix": "analysis.matrices",

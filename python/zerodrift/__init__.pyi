@@ -20,6 +20,7 @@ Call first, by task (``m`` is a mechanism or other system, ``sol`` a solution)::
     linearize                   zd.linearize(m): modes, frequencies, matrices A, B, C, D
     prescribe a motion          zd.kinematics(m, ...); without time: zd.trace, zd.reach
     find forces of a motion     zd.inverse_dynamics
+    size a flywheel             zd.flywheel(m, "crank.angle", speed=31.4)
     vary parameters             zd.ensemble(m, 10.0, parameters=...); zd.grid for all combinations
     choose settings             zd.tune, zd.work_precision; certified error: zd.reference
     check equations             zd.check(m)
@@ -103,6 +104,7 @@ from .runs.states.operations import assemble as assemble
 from .runs.states.operations import project as project
 from .studies import compare as compare
 from .studies.check import check as check
+from .studies.flywheel import flywheel as flywheel
 from .studies.reference import reference as reference
 from .studies.stability_map import stability_map as stability_map
 from .studies.tune import tune as tune
