@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import html
+import os
 import sys
 from pathlib import Path
 
@@ -11,6 +13,10 @@ import equations
 import pages
 
 import zerodrift
+
+OWNER, _, NAME = os.environ.get("GITHUB_REPOSITORY", "").partition("/")      # where the site is published from a repository
+ABOUT = "Mechanisms in Python whose joints stay closed to rounding error: simulation, reactions, films, a drawing board, in the plane and in space"
+POLICY = "default-src 'self'; script-src 'self' 'unsafe-inline'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; font-src 'self' data:; object-src 'none'"
 
 project, author, release = "zerodrift", "the zerodrift developers", zerodrift.__version__
 extensions = ["myst_nb", "numpydoc", "sphinx.ext.autodoc", "sphinx.ext.autosummary"]
@@ -40,16 +46,30 @@ numpydoc_xref_param_type = False
 
 html_theme = "pydata_sphinx_theme"
 html_title = "zerodrift"
-html_theme_options = {"show_prev_next": False, "navbar_align": "left", "secondary_sidebar_items": ["page-toc"]}
+html_theme_options = {"show_prev_next": False, "navbar_align": "left", "secondary_sidebar_items": ["page-toc"],
+                      "icon_links": [{"name": "Repository", "url": f"https://github.com/{OWNER}/{NAME}", "icon": "fa-brands fa-github"},
+                                     {"name": "Issues", "url": f"https://github.com/{OWNER}/{NAME}/issues", "icon": "fa-solid fa-circle-dot"}]
+                      if OWNER else []}
 html_copy_source = False
 html_domain_indices = False
-html_extra_path = ["generated/extra"]      # films of the gallery
-html_static_path, html_css_files = ["site/templates/site.css"], ["site.css"]
+html_extra_path = ["generated/extra", "../LICENSE", "../CITATION.cff", "../CHANGELOG.md"]      # films of the gallery first
+html_favicon = "site/templates/icon.svg"
+html_baseurl = f"https://{OWNER}.github.io/{NAME}/" if OWNER else ""
+html_static_path, html_css_files = ["site/templates/site.css", "site/mechanisms.png"], ["site.css"]
 html_context = {"default_mode": "auto"}
+
+
+def describe(app: object, page: str, template: str, context: dict, doctree: object) -> None:
+    """Description, picture for links, and a policy: a page loads what is of this site alone."""
+    tags = {"description": ABOUT, "og:title": context.get("title", project), "og:description": ABOUT,
+            "og:image": f"{html_baseurl}_static/mechanisms.png"}
+    context["metatags"] = context.get("metatags", "") + f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">' + "".join(
+        f'<meta {"property" if name.startswith("og") else "name"}="{name}" content="{html.escape(text, quote=True)}">' for name, text in tags.items())
 
 
 def setup(app: object) -> None:
     """Write the generated pages before Sphinx looks for files; equations are MathML."""
     app.add_html_math_renderer("mathml", (equations.inline, None), (equations.block, None))
     app.connect("doctree-read", equations.offline)
+    app.connect("html-page-context", describe)
     pages.write(Path(__file__).parent / "generated")

@@ -103,13 +103,28 @@ def test_pages_can_be_read_by_everybody(site, tmp_path):
 
 
 @needs_chromium
-def test_the_first_page_moves_and_is_reached_by_keys(site, tmp_path):
+def test_the_leg_of_the_first_page_walks_and_is_dragged(site, tmp_path):
+    pytest.importorskip("ziglang")
     with Browser(tmp_path / "profile") as browser:
-        browser.open((site / "index.html").as_uri(), still=False)
-        assert browser.evaluate("document.querySelectorAll('.films iframe').length") == 4
-        reached = browser.evaluate("""[...document.querySelectorAll("[data-film], iframe")]
-            .filter((each) => { each.focus(); return each.tabIndex >= 0 && document.activeElement === each; })
-            .map((each) => each.dataset.film ?? each.tagName)""")
-        assert {"films/slider_crank.html", "films/four_bars.html", "IFRAME"} <= set(reached)
-        browser.open((site / "index.html").as_uri(), still=True)
-        assert browser.evaluate("document.querySelectorAll('.films iframe').length") == 0
+        browser.open((site / "live" / "leg.html").as_uri(), width=600, height=430, still=False)
+        browser.until("globalThis.zerodrift && zerodrift.time(zerodrift.live.mechanism) > 0.1")
+        part = "zerodrift.parts.find(each => each.name === 'foot').point"
+        x, y = browser.evaluate(f"zerodrift.spot({part}).slice(0, 2)")
+        browser("Input.dispatchMouseEvent", type="mousePressed", x=x, y=y, button="left", clickCount=1, buttons=1)
+        assert browser.evaluate("zerodrift.live.dragged !== null")
+        assert browser.evaluate("document.getElementById('told').textContent") == ""
+        assert browser.errors == []
+
+
+@needs_chromium
+def test_films_of_cards_play_when_pointed_at_and_are_reached_by_keys(site, tmp_path):
+    with Browser(tmp_path / "profile") as browser:
+        browser.open((site / "generated" / "gallery.html").as_uri(), still=False)
+        assert browser.evaluate("document.querySelectorAll('.films a iframe[loading=lazy]').length") == 36
+        assert browser.evaluate("""[...document.querySelectorAll(".films a")].every((each) => { each.focus();
+            return document.activeElement === each && each.querySelector("iframe").title.length > 20; })""")
+        heard = browser.evaluate("""(() => { const card = document.querySelector(".films a"), heard = [];
+            const value = {postMessage: each => heard.push(each.on)};
+            Object.defineProperty(card.querySelector("iframe"), "contentWindow", {value});
+            card.dispatchEvent(new Event("pointerenter")); card.dispatchEvent(new Event("pointerleave")); return heard; })()""")
+        assert heard[-2:] == [True, False]

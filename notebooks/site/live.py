@@ -6,15 +6,17 @@ import base64
 import gzip
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import zerodrift as zd
 from zerodrift import gallery
 from zerodrift.errors import CompilationFailed
 from zerodrift.export import wasm
+from zerodrift.mechanisms.files import from_json
 from zerodrift.mechanisms.files.to_json import described
-from zerodrift.player.live import live_view, player
+from zerodrift.player.live import LiveView, live_view, player
+from zerodrift.player.scene import Wanted
 
 BOARD = Path(__file__).parent.parent / "board"
 SCRIPTS = ("model.js", "block.js", "python.js", "edit.js", "fields.js", "picture.js", "board.js")      # what a script uses stands before it
@@ -53,15 +55,33 @@ def board() -> str:
     return text["board.html"].replace("/*style*/", text["board.css"]).replace("/*script*/", script)
 
 
-def lives(folder: Path) -> None:
-    """Write the pages that simulate the models, each anew when the package has changed, and the player that they share."""
+def leg() -> zd.Mechanism:
+    """Jansen's leg, whose crank a motor turns by a torque, so that it can be held and dragged."""
+    data = described(zd.models.jansen()._drawing())
+    data["elements"] = [each for each in data["elements"] if each["kind"] != "motor"]
+    walking = from_json.mechanism(zd.Mechanism, data, "leg")
+    walking.motor("drive", "Z", torque=lambda speed: -2.0 * (speed + 5.0))
+    return walking
+
+
+def write_leg(folder: Path) -> None:
+    """Write the live page of the first page, and the player that all of them share."""
     folder.mkdir(exist_ok=True)
     (folder / "player.js").write_text(player(), encoding="utf-8")
-    for each in gallery.exhibits():
-        path = folder / f"{each.name}.html"
-        if not is_current(path):
-            view = live_view(each.made(), step=min(each.step, 0.01), speed=each.speed, **dict(each.options))
-            path.write_text(view.linked("../core_bytes.js", "player.js"), encoding="utf-8")
+    if not is_current(folder / "leg.html"):
+        save(live_view(leg(), {}, step=0.005, wanted=Wanted(path="F")), folder / "leg.html")
+
+
+def write_live(exhibit: gallery.Exhibit, graphs: Sequence[str], path: Path) -> None:
+    """Write the page that simulates a model, with graphs of those that are measures."""
+    made = exhibit.made()
+    wanted = Wanted(path=exhibit.path, graphs=[name for name in graphs if name in made.measures])
+    save(live_view(made, step=min(exhibit.step, 0.01), speed=exhibit.speed, wanted=wanted, **dict(exhibit.options)), path)
+
+
+def save(view: LiveView, path: Path) -> None:
+    """Write a live page that loads core and player."""
+    path.write_text(view.linked("../core_bytes.js", "player.js"), encoding="utf-8")
 
 
 def plain(script: str) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import html
 import inspect
 import json
@@ -20,6 +19,7 @@ from zerodrift.mechanisms.elements.joints import JOINTS
 from zerodrift.mechanisms.elements.space_joints import JOINTS as SPACE_JOINTS
 from zerodrift.mechanisms.elements.table_forces import ELEMENTS, SPACE_ELEMENTS
 from zerodrift.paper import geometry
+from zerodrift.player.view import player
 
 WARNINGS = tuple(each for each in vars(errors).values() if inspect.isclass(each) and issubclass(each, Warning))
 ERRORS = tuple(each for each in vars(errors).values() if inspect.isclass(each) and issubclass(each, zd.ZerodriftError))
@@ -34,30 +34,28 @@ def write(folder: Path) -> None:
     (folder / "models").mkdir(exist_ok=True)
     figures(folder)
     live.write(folder / "extra")
-    for name, lines in {"front.html": front(), "cards.html": cards(), "boards.html": live.boards(), **{f"{page}.md": text for page, text in pages.items()}}.items():
+    for name, lines in {"cards.html": cards(), "boards.html": live.boards(), **{f"{page}.md": text for page, text in pages.items()}}.items():
         path, text = folder / name, "\n".join(lines) + "\n"
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
 
 
-def front() -> Iterable[str]:
-    """The film of the first page: what the code above it computes."""
-    sol = zd.simulate(zd.models.jansen(), 6.0, step=0.01)
-    yield zd.view(sol, path="F", forces=["Y bed", "W"], graphs=["F.position.y"])._repr_html_()
-
-
 CARDS = (("start/a_mechanism_in_ten_minutes", "slider_crank", "Ten minutes", "a mechanism of your own, a reaction, a film"),
-         ("generated/gallery", "stewart_platform", "Gallery", "36 known mechanisms, in the plane and in space"),
-         ("use/which_settings", "closed_pendulum", "Which settings", "none at first; then the error that you want"),
-         ("generated/errors", "four_bars", "When it stops", "each message: causes, cures, an example"))
+         ("generated/gallery", "jansen", "Gallery", "36 known mechanisms in motion, with their code"),
+         ("start/mechanisms_in_space", "stewart_platform", "In space", "axes, wheels, frames; graphs and forces"))
 
 
 def cards() -> Iterable[str]:
-    """Four links of the first page, whose films play."""
-    yield '<div class="films four">'
-    yield from (f'<a href="{page}.html" data-film="films/{film}.html" data-plays=""><span class="still"><img src="films/{film}.png" alt="" '
-                f'class="dark-light" loading="lazy"></span><b>{title}</b><small>{text}</small></a>' for page, film, title, text in CARDS)
+    """Links of the first page, whose films play."""
+    yield '<div class="films">'
+    yield from (card(page, f"films/{film}", title, text, text) for page, film, title, text in CARDS)
     yield from ("</div>", PLAYING)
+
+
+def card(page: str, film: str, title: str, text: str, see: str) -> str:
+    """A film that plays when it is pointed at, on a telephone when it is seen; it is a link."""
+    return (f'<a href="{page}.html"><iframe src="{film}.html#t=0" title="Film: {html.escape(see)}" loading="lazy" tabindex="-1"></iframe>'
+            f'<b>{title}</b><small>{html.escape(text)}</small></a>')
 
 
 def figures(folder: Path) -> None:
@@ -143,45 +141,39 @@ KINDS = {
     "Many bodies": ("closed_pendulum", "four_bars", "chain"),
 }
 PLAYING = """<script>
+(() => {
+const still = matchMedia("(prefers-reduced-motion: reduce)").matches, play = (card, on) => card.querySelector("iframe").contentWindow.postMessage({zerodrift: "play", on}, "*");
+const seen = matchMedia("(hover: none)").matches && !still ? new IntersectionObserver(all => all.forEach(each => play(each.target, each.isIntersecting)), {threshold: 0.95}) : null;
 document.querySelectorAll(".films a").forEach(card => {
-  const play = () => {
-    if (card.querySelector("iframe")) return;
-    const film = document.createElement("iframe");
-    film.src = card.dataset.film;
-    film.title = "";
-    film.tabIndex = -1;
-    film.setAttribute("sandbox", "allow-scripts");
-    card.firstElementChild.append(film);
-  };
-  const stop = () => card.querySelector("iframe")?.remove();
-  if ("plays" in card.dataset && !matchMedia("(prefers-reduced-motion: reduce)").matches) return play();
-  card.addEventListener("pointerenter", play); card.addEventListener("focus", play);
-  card.addEventListener("pointerleave", stop); card.addEventListener("blur", stop);
+  seen?.observe(card);
+  for (const [event, on] of [["pointerenter", true], ["focus", true], ["pointerleave", false], ["blur", false]]) card.addEventListener(event, () => play(card, on));
 });
+})();
 </script>"""
 
 
 def films(folder: Path) -> Iterable[tuple[str, Iterable[str]]]:
     """The gallery, and a page for each model; films are files of their own, which are made anew when the package has changed."""
     (folder / "extra" / "films").mkdir(parents=True, exist_ok=True)
+    (folder / "extra" / "films" / "player.js").write_text(player(), encoding="utf-8")
+    live.write_leg(folder / "extra" / "live")
     kept = folder / "graphs.json"
     known = json.loads(kept.read_text(encoding="utf-8")) if kept.exists() else {}
     shown = {each.name: each for each in gallery.exhibits()}
-    live.lives(folder / "extra" / "live")
     for exhibit in shown.values():
         path = folder / "extra" / "films" / f"{exhibit.name}.html"
         if not live.is_current(path) or exhibit.name not in known:
             sol = exhibit.run()
-            film = zd.view(sol, path=list(exhibit.path), speed=exhibit.speed, graphs=plotted(sol))
-            path.with_suffix(".png").write_bytes(base64.b64decode(film._still()))
-            film.save(path)
-            known[exhibit.name] = plotted(sol)[0]
+            known[exhibit.name] = plotted(sol)
+            live.write_live(exhibit, known[exhibit.name], folder / "extra" / "live" / path.name)
+            film = zd.view(sol, path=list(exhibit.path), speed=exhibit.speed, graphs=known[exhibit.name])
+            path.write_text(film.linked("player.js"), encoding="utf-8")
             kept.write_text(json.dumps(known), encoding="utf-8")
         yield f"models/{exhibit.name}", model(exhibit, known)
     yield "gallery", [
-        "# Gallery", "", f"{len(shown)} mechanisms; pictures play when pointed at.", "",
+        "# Gallery", "", f"{len(shown)} mechanisms; films play when pointed at, on a telephone when they are seen.", "",
         *(line for kind, names in KINDS.items() for line in (f"## {kind}", "", "```{raw} html", '<div class="films">',
-                                                             *(card(shown[name]) for name in names), "</div>", "```", "")),
+            *(card(f"models/{name}", f"../films/{name}", shown[name].title, shown[name].see, shown[name].see) for name in names), "</div>", "```", "")),
         "```{raw} html", PLAYING, "```", "", "```{toctree}", ":hidden:", "", *(f"models/{name}" for name in shown), "```"]
 
 
@@ -190,13 +182,6 @@ def plotted(sol: zd.Solution) -> list[str]:
     driving = [name for name in sol.measures if name.endswith(".torque") and sol[name].ndim == 1 and abs(sol[name]).max() > 1e-9]
     forces = [name for name in sol.measures if name.endswith(".force")]
     return [next(iter([*reversed(driving), *forces]), sol.system.coordinates[0].name)]
-
-
-def card(exhibit: gallery.Exhibit) -> str:
-    """A picture of the gallery."""
-    name = exhibit.name
-    return (f'<a href="models/{name}.html" data-film="../films/{name}.html"><span class="still"><img src="../films/{name}.png" '
-            f'alt="{html.escape(exhibit.see)}" class="dark-light" loading="lazy"></span><b>{exhibit.title}</b></a>')
 
 
 TURNING = " The view is turned by dragging beside it, or by Shift with the arrow keys."
@@ -215,7 +200,7 @@ style="width:100%;height:560px;border:0"></iframe>
 
 def model(exhibit: gallery.Exhibit, graphs: dict[str, str]) -> Iterable[str]:
     """The page of a model: film with a plot, lines, simulation, the mechanism in words, sources of its numbers, code."""
-    made, name, graph = getattr(zd.models, exhibit.name), exhibit.name, graphs[exhibit.name]
+    made, name, graph = getattr(zd.models, exhibit.name), exhibit.name, graphs[exhibit.name][0]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         words = str(exhibit.made())
@@ -223,7 +208,7 @@ def model(exhibit: gallery.Exhibit, graphs: dict[str, str]) -> Iterable[str]:
     path = f", path={list(exhibit.path)}" if exhibit.path else ""
     shown = f"zd.view(sol, speed={exhibit.speed:g}{path}, graphs=[{graph!r}])".replace("'", '"')
     yield from (f"# {exhibit.title}", "", exhibit.see, "", f"Beside it: `{graph}`.", "", "```{raw} html", f'<iframe src="../../films/{name}.html" '
-                f'title="Film: {html.escape(exhibit.see)}" sandbox="allow-scripts" style="width:100%;height:460px;border:0"></iframe>', "```", "",
+                f'title="Film: {html.escape(exhibit.see)}" allowfullscreen style="width:100%;height:460px;border:0"></iframe>', "```", "",
                 "```python", "import zerodrift as zd", "", *exhibit.lines[:-1], shown, "```", "",
                 LIVE.format(name=name, title=exhibit.title, turning=TURNING if exhibit.made().dimension == 3 else ""), "## The mechanism", "",
                 text.split("\n\n")[0], "", "```text", words, "```", "")

@@ -53,7 +53,7 @@ def test_sliders_move_the_film(crank):
     assert picture.value == before      # it stays behind the new one, which asks it for its time
     assert behind.value != before
     assert (picture.layout.display, behind.layout.display) == ("none", None)
-    assert 'sandbox="allow-scripts"' in behind.value
+    assert 'sandbox="allow-scripts allow-downloads"' in behind.value
     assert crank.group in behind.value
 
 

@@ -46,6 +46,49 @@ def test_every_model_moves_without_an_error(browser, name, tmp_path):
     assert browser.errors == []
 
 
+def test_names_do_not_lie_over_each_other(browser, tmp_path):
+    """And of those of a joint on a rail, the name is at the slider."""
+    m = zd.models.stewart_platform()
+    shown(browser, zd.view(zd.simulate(m, 0.1, step=0.005), names=True), tmp_path)
+    boxes = browser.evaluate("""(() => {
+      const boxes = [], brush = CanvasRenderingContext2D.prototype, fill = brush.fillText, {film} = zerodrift;
+      const names = new Set(film.layers[0].shapes.map(each => each[1]));
+      brush.fillText = function (text, x, y, ...rest) {
+        if (names.has(text)) boxes.push([x, y - 11, x + this.measureText(text).width, y + 2]);
+        fill.call(this, text, x, y, ...rest);
+      };
+      zerodrift.show(1);
+      return boxes;
+    })()""")
+    assert len(boxes) > 5
+    assert all(a[2] < b[0] or a[0] > b[2] or a[3] < b[1] or a[1] > b[3] for i, a in enumerate(boxes) for b in boxes[:i])
+
+
+def test_a_link_leads_to_a_moment_and_the_table_has_the_graphs(browser, crank, tmp_path):
+    path = zd.view(crank, graphs=["crank.angle"]).save(tmp_path / "film")
+    browser.open(path.as_uri() + "#t=2.5", still=False)
+    browser.until("globalThis.zerodrift !== undefined")
+    assert not browser.evaluate("zerodrift.playing")
+    assert browser.evaluate("zerodrift.now / (zerodrift.film.samples - 1)") == pytest.approx(2.5 / 4.0)
+    head, *rows = browser.evaluate("zerodrift.table()").splitlines()
+    assert head == '"t [s]","crank.angle [rad]","position violation [m]","energy error [J]"'
+    t, angle = np.array([[float(each) for each in row.split(",")[:2]] for row in rows]).T
+    np.testing.assert_allclose(angle, np.interp(t, crank.t, crank["crank.angle"]), atol=1e-6)
+
+
+@pytest.mark.parametrize("model", [zd.models.closed_pendulum(300), zd.models.chain(300)], ids=["plane", "space"])
+def test_a_long_chain_is_drawn_as_a_line(browser, model, tmp_path):
+    """Its links are shorter than a pin would be: their colour is seen, and no pin's paper."""
+    sol = zd.simulate(model, 0.01, step=1e-3)
+    shown(browser, zd.view(sol, speed=0.02), tmp_path)
+    calls = browser.evaluate(CALLS)
+    assert "arc" not in calls
+    dark = browser.evaluate("""(() => { const canvas = document.querySelector("canvas"), {width, height} = canvas;
+        const {data} = canvas.getContext("2d").getImageData(0, 0, width, height);
+        return data.filter((each, i) => i % 4 === 0 && data[i + 3] > 200 && each < 120).length; })()""")
+    assert dark > 500
+
+
 def test_keys(browser, crank, tmp_path):
     film = shown(browser, zd.view(crank), tmp_path)
     places = []
@@ -62,10 +105,10 @@ def test_keys(browser, crank, tmp_path):
 def test_every_control_has_a_name_and_takes_the_focus(browser, crank, tmp_path):
     shown(browser, zd.view(crank, graphs=["crank.angle"]), tmp_path)
     found = []
-    for _ in range(4):
+    for _ in range(5):
         browser.press("Tab")
         found.append(browser.evaluate("(each => [each.tagName, each.ariaLabel || each.textContent])(document.activeElement)"))
-    assert [tag for tag, _ in found] == ["CANVAS", "BUTTON", "INPUT", "SELECT"]
+    assert [tag for tag, _ in found] == ["CANVAS", "BUTTON", "INPUT", "SELECT", "SELECT"]
     assert all(name for _, name in found)
     assert browser.evaluate("[...document.querySelectorAll('canvas')].every(each => each.ariaLabel)")
 

@@ -6,7 +6,7 @@ const canvas = document.getElementById("picture"), AXES = ["x", "y", "z"].slice(
 const words = {play: document.getElementById("play"), state: document.getElementById("state"), told: document.getElementById("told")};
 const BUDGET = 8;           // ms of computation in a picture
 const live = {mechanism: null, playing: !matchMedia("(prefers-reduced-motion: reduce)").matches, dragged: null, turned: null, owed: 0, cost: 0, pictures: 0,
-  trust: [], chosen: null, initial: null, sliders: []};
+  times: [], chosen: null, initial: null, sliders: []};
 globalThis.zerodrift = {live, scene, read, time, poses, parameter, setParameter, setInput, input, save, violation, energyViolation, freedoms};
 
 const bytesOf = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
@@ -54,9 +54,21 @@ function look() {
   if (grown) picture.frame();
 }
 
+// Forces as arrows, to the scale of the largest one so far.
+function pushForces() {
+  const forces = scene.arrows.map((name) => [...read(live.mechanism, `${name}.force`)]);
+  live.force = Math.max(0.99 * (live.force ?? 0), 1e-9, ...forces.map(picture.length));
+  forces.forEach((force, i) => {
+    Object.assign(layer.arrows[i], {scale: live.force, to: layer.at.length});
+    layer.at.push(force.map((x) => x / live.force));
+  });
+}
+
 function draw() {
   locate();
   look();
+  pushForces();
+  layer.paths = ways.map((each) => each.values);
   picture.draw();
   if (live.chosen) picture.ring(layer.at[live.chosen.point], live.chosen.name);
   if (live.dragged) picture.thread(layer.at[live.dragged.point], live.dragged.screen);
@@ -67,36 +79,37 @@ function tell() {
   words.state.textContent = `t = ${time(m).toFixed(2)} s · degrees of freedom ${count}${extra}`;
 }
 
-// ---- trust: position violation and energy error of the last seconds, on logarithmic scales as in a film ----
+// ---- the last seconds: violation and energy error on a logarithmic scale, graphs, and ways of points ----
 
-const TRUST = [["position violation", "m", violation, "#0072b2", "#56b4e9"], ["energy error", "J", (m) => Math.abs(energyViolation(m)), "#b34a00", "#ffb57d"]];
-const LONGEST = 600, LEAST = 1e-18;        // pictures that the lines reach back, and the smallest number that they show
+const LONGEST = 600;        // pictures that lines reach back
+const line = (name, unit, measured) => ({name, unit, measured, values: []});
+const trust = [line("position violation", "m", violation), line("energy error", "J", (m) => Math.abs(energyViolation(m)))];
+const graphs = scene.graphs.map(({name, unit, measure, part}) => line(name, unit, (m) => read(m, measure)[part]));
+const ways = scene.paths.map((name) => line(name, "m", (m) => [...read(m, name)]));
+const drawnOn = [[document.getElementById("trust"), trust, true]];
+for (const unit of new Set(graphs.map((each) => each.unit))) {
+  const own = graphs.filter((each) => each.unit === unit), element = document.createElement("canvas");
+  element.setAttribute("role", "img");
+  element.setAttribute("aria-label", `Graphs of ${own.map((each) => each.name).join(", ")}`);
+  document.getElementById("graphs").append(element);
+  drawnOn.push([element, own, false]);
+}
+Object.assign(live, {trust, graphs});
 
-function keepTrust() {
-  TRUST.forEach(([, , measured], i) => {
-    const values = (live.trust[i] ??= []);
-    values.push(measured(live.mechanism));
-    if (values.length > LONGEST) values.shift();
-  });
+function keep() {
+  const m = live.mechanism;
+  if (time(m) === live.times.at(-1)) return;
+  live.times.push(time(m));
+  for (const each of [live, ...trust, ...graphs, ...ways]) {
+    if (each !== live) each.values.push(each.measured(m));
+    const kept = each === live ? each.times : each.values;
+    if (kept.length > LONGEST) kept.shift();
+  }
 }
 
-function drawTrust() {
-  const strip = document.getElementById("trust"), brush = strip.getContext("2d"), ratio = devicePixelRatio || 1, {width, height} = strip.getBoundingClientRect();
-  const isDark = matchMedia("(prefers-color-scheme: dark)").matches;
-  if (strip.width !== Math.round(width * ratio)) [strip.width, strip.height] = [Math.round(width * ratio), Math.round(height * ratio)];
-  brush.setTransform(ratio, 0, 0, ratio, 0, 0);
-  brush.clearRect(0, 0, width, height);
-  brush.font = "11px system-ui, sans-serif";
-  TRUST.forEach(([name, unit, , light, dark], i) => {
-    const values = live.trust[i] ?? [], known = values.filter(Number.isFinite);
-    if (!known.length) return;
-    const heights = values.map((x) => Math.log10(Math.max(x, LEAST))), low = Math.min(...heights.filter(Number.isFinite)), high = Math.max(...heights.filter(Number.isFinite), low + 1);
-    brush.beginPath();
-    heights.forEach((x, k) => brush[k ? "lineTo" : "moveTo"](8 + (width - 16) * k / (LONGEST - 1), height - 4 - (height - 20) * (x - low) / (high - low)));
-    Object.assign(brush, {strokeStyle: isDark ? dark : light, fillStyle: isDark ? dark : light, lineWidth: 1.5});
-    brush.stroke();
-    brush.fillText(`${name} \u2264 ${Math.max(...known).toExponential(1)} ${unit}`, 8 + i * Math.max(190, width / 2), 11);
-  });
+function drawGraphs() {
+  const to = time(live.mechanism), from = live.times[0] ?? to;
+  for (const [element, lines, log] of drawnOn) graph(element, picture, lines, {from, to, log});
 }
 
 // ---- time ----
@@ -117,9 +130,9 @@ function next(now) {
         step(live.mechanism, 1);
       }
     } else if (live.dragged) pull(live.mechanism, () => whereIs(live.dragged.point), targetOf(live.dragged));
-    keepTrust();
+    keep();
     draw();
-    drawTrust();
+    drawGraphs();
     tell();
   } catch (error) {
     live.playing = false;
@@ -217,7 +230,8 @@ function toggle() {
 
 function restart() {
   restoreRun(live.mechanism, live.initial);
-  live.trust = [];
+  live.times = [];
+  for (const each of [...trust, ...graphs, ...ways]) each.values = [];
   live.dragged = null;
   words.told.textContent = "";
   reshape();
@@ -260,6 +274,8 @@ function listen() {
       live.turned = at;
     }
   });
+  canvas.addEventListener("touchstart", (event) => { if (nearest(onScreen(event.touches[0])) !== null || scene.dimension === 3) event.preventDefault(); },
+    {passive: false});          // elsewhere a finger scrolls the page around it
   for (const kind of ["pointerup", "pointercancel"]) canvas.addEventListener(kind, letGo);
   canvas.addEventListener("wheel", (event) => {
     if (!event.ctrlKey) return;
@@ -272,14 +288,14 @@ function listen() {
   addEventListener("keyup", (event) => { if (event.key.startsWith("Arrow")) letGo(); });
 }
 
-function addSlider({name, kind, least, most, value}) {
+function addSlider({name, kind, least, most, value, unit: unitOf}) {
   const label = document.createElement("label"), slider = document.createElement("input"), shown = document.createElement("output");
   const [set, get] = kind === "input" ? [setInput, input] : [setParameter, parameter];
   Object.assign(slider, {type: "range", min: least, max: most, step: (most - least) / 200, value});
   slider.setAttribute("aria-label", name);
   const show = () => {
     slider.value = get(live.mechanism, name);
-    shown.textContent = get(live.mechanism, name).toPrecision(4);
+    shown.textContent = `${get(live.mechanism, name).toPrecision(4)} ${unitOf}`;
   };
   slider.addEventListener("input", () => {
     const wanted = Math.min(most, Math.max(least, +slider.value));
@@ -298,6 +314,7 @@ function addSlider({name, kind, least, most, value}) {
   document.getElementById("sliders").append(label);
 }
 
+layer.arrows = scene.arrows.map((name) => ({name, at: parts.find((part) => part.name === name).point}));
 Object.assign(globalThis.zerodrift, {parts, spot: (point) => picture.project(layer.at[point]), at: (point) => { locate(); return picture.place(layer, point); }});
 const packed = scene.core ?? globalThis.zerodriftCore;
 play(live.playing);

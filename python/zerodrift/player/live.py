@@ -22,13 +22,17 @@ from ..export import wasm
 from ..export.block import choose, table_words, written
 from ..mechanisms.assembly.drive_starts import driven_coordinate
 from ..mechanisms.elements.forces import Actuator, Motor
+from ..mechanisms.pictures.arrows import chosen as acting
 from ..mechanisms.system import MechanismSystem
+from ..plot.drawing import names_of_points
+from ..runs.samples.columns import columns
 from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
 from ..runs.states.instant import start_of
+from ..systems.measure_values import find
 from .body_points import BodyPoints, body_points, moved
-from .page import Page, text
-from .scene import Wanted, scene
+from .page import Page, document, text
+from .scene import ARROW, Wanted, scene
 
 HEIGHT = 520            # of the page in a notebook, in points of the screen
 AUTOMATIC = {".length": 4, ".stiffness": 1, ".mass": 1, "gravity.": 1}     # sliders, where none are named
@@ -40,11 +44,13 @@ SAMPLES = 60            # of this motion
 UNMOVED = (".mass", ".stiffness", ".damping")       # parameters that move no point of the drawing in its body
 DIGITS, EXACT = 9, 14   # decimal places of coordinates in m, in pages and in polynomials
 TURNING = ", with Shift they turn the view"
+# Units of parameters by their endings.
+UNITS = {"length": "m", "mass": "kg", "stiffness": "N/m", "damping": "N s/m", "torque": "N m", "force": "N"}
 Limits = dict[str, tuple[float, float]]
 BODY = """<canvas id="picture" role="img" tabindex="0"
 aria-label="{name}, simulated; n chooses a part, arrow keys pull it{turning}"></canvas><div id="bar">
 <button id="play">Pause</button><button id="restart">Restart</button><span id="state"></span></div>
-<canvas id="trust" role="img" aria-label="Position violation and energy error over time"></canvas>
+<canvas id="trust" role="img" aria-label="Position violation and energy error over time"></canvas><div id="graphs"></div>
 <div id="told" role="alert"></div><div id="sliders"></div>"""
 
 
@@ -76,12 +82,9 @@ class LiveView(Page):
     def _page(self, more: Mapping[str, Any], scripts: str = "") -> str:
         name = html.escape(self._scene["name"], quote=True)
         data = json.dumps({**self._scene, **more}, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
-        return (f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{name}</title>'
-                f'<meta name="viewport" content="width=device-width">'
-                f'<style>{text("colours.css")}\n{text("live.css")}\n</style></head>'
-                f'<body>{BODY.format(name=name, turning=TURNING if self._scene["dimension"] == 3 else "")}'
-                f'<script type="application/json" id="live">{data}</script>{scripts or f"<script>{player()}</script>"}'
-                '</body></html>')
+        return document(self._scene["name"], "live.css",
+                        f'{BODY.format(name=name, turning=TURNING if self._scene["dimension"] == 3 else "")}'
+                        f'<script type="application/json" id="live">{data}</script>{scripts or f"<script>{player()}</script>"}')
 
     def _repr_html_(self) -> str:
         page = self.page.replace("&", "&amp;").replace("'", "&#39;")
@@ -97,14 +100,15 @@ class LiveView(Page):
 def player() -> str:
     """Script of all live pages."""
     functions = re.sub(r"^export ", "", wasm.text("core.js"), flags=re.MULTILINE)
-    return f'(async () => {{\n{functions}{text("picture.js")}\n{text("live.js")}\n}})();\n'
+    return f'(async () => {{\n{functions}{text("graph.js")}\n{text("picture.js")}\n{text("live.js")}\n}})();\n'
 
 
 def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None = None, *, step: float = STEP,
-              speed: float | None = None, names: bool = False, **options: Any) -> LiveView:
-    """Page of a mechanism, with sliders of these parameters and inputs, by name with smallest and largest value, and the methods
-    that `zerodrift.block` takes.
+              speed: float | None = None, wanted: Wanted | None = None, **options: Any) -> LiveView:
+    """Page of a mechanism, with sliders of these parameters and inputs, by name with smallest and largest value, the contents of
+    a film, and the methods that `zerodrift.block` takes.
     """
+    wanted = wanted or Wanted()
     system, *_ = start_of(mechanism, None, None, 0.0)
     if not isinstance(system, MechanismSystem):
         raise WrongValue("a live view must be of a mechanism: the page simulates its block, and equations have none",
@@ -113,22 +117,48 @@ def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None 
     sol = _motion(system, step, options)
     points = body_points(system, list(sol.p))
     inputs, limits = _given(system, sliders) if sliders is not None else (_inputs(system), {})
-    chosen = choose(system, None, None, 0.0, step, [], list(inputs), **options)
+    known = system._watching.known
+    arrows = [each.name for each in (acting(system._drawing, wanted.forces) if wanted.forces else ())
+              if np.ndim(sol[f"{each.name}.force"]) == 2]
+    graphs = [variable for variable, _ in columns(sol, wanted.graphs)] if len(wanted.graphs) else []
+    paths = [name if name.endswith(".position") else f"{name}.position" for name in names_of_points(wanted.path)]
+    read = [*paths, *(f"{name}.force" for name in arrows), *(variable.name for variable in graphs)]
+    chosen = choose(system, None, None, 0.0, step, read, list(inputs), **options)
     driven = map(driven_coordinate, system._drawing.of((Motor, Actuator)))
     chosen = chosen._replace(has_grip=True, watched=(*chosen.watched, *driven))
     words = table_words(chosen), _parameters.computed_once(functools.partial(_coordinates, system, points))
     limits = _parameters.ranges(limits, system.parameters) if sliders is not None else _automatic(system, words)
     data = written(chosen._replace(limits=limits), words[0])
     values = {**system.parameters, **BlockCore(data).inputs}
-    shown = [{"name": name, "kind": kind, "least": least, "most": most, "value": values[name]}
+    shown = [{"name": name, "kind": kind, "least": least, "most": most, "value": values[name],
+              "unit": _unit(name, known)}
              for kind, those in (("parameter", limits), ("input", inputs)) for name, (least, most) in those.items()]
     film = scene([sol], [system.name], Wanted(samples=SAMPLES))
     kept = {name: film[name] for name in ("name", "upside", "dimension", "low", "high", "follow", "pin")}
+    size = float(np.linalg.norm(np.subtract(film["high"], film["low"])) or 1.0)
+    kept |= {"arrow": ARROW * size, "names": wanted.names, "paths": paths, "arrows": arrows,
+             "graphs": [_read(variable, known) for variable in graphs]}
     mass = sum(body.mass for body in system._started_tables.written().bodies)
     gravity = float(np.linalg.norm([value for name, value in system.parameters.items() if name.startswith("gravity.")]))
     return LiveView({
         **kept, **_drawn(points), "changes": _changes(words[1], limits), "block": _encoded(data), "t": 0.0, "step": step,
-        "speed": speed, "sliders": shown, "mass": mass, "weight": mass * gravity, "names": bool(names), "arrow": 0})
+        "speed": speed, "sliders": shown, "mass": mass, "weight": mass * gravity})
+
+
+def _read(variable: Any, known: Mapping[str, tuple[int, int]]) -> dict[str, Any]:
+    """A graph: its name and unit, the measure that it shows, and the component."""
+    found: Any = find(variable.name, known)
+    return {"name": variable.name, "unit": variable.unit, "measure": list(known)[found.number], "part": found.component or 0}
+
+
+def _unit(name: str, known: Mapping[str, Any]) -> str:
+    """Unit of a parameter or an input."""
+    element, _, ending = name.rpartition(".")
+    if element == "gravity":
+        return "m/s\u00b2"
+    if ending == "speed":
+        return "rad/s" if f"{element}.torque" in known else "m/s"
+    return UNITS.get(ending, "")
 
 
 def _motion(system: MechanismSystem, step: float, options: Mapping[str, Any]) -> Solution:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import functools
+import html
+import re
 import tempfile
 import webbrowser
 from importlib import resources
@@ -33,7 +35,19 @@ class Page:
         webbrowser.open(self.save(folder / self.name).as_uri())
 
 
+POLICY = ("default-src 'none'; script-src 'self' 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; "
+          "img-src data: blob:")
+
+
+def document(name: str, style: str, body: str) -> str:
+    """A page with its name, style and body, which loads nothing but scripts beside it."""
+    return (f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{html.escape(name)}</title>'
+            f'<meta http-equiv="Content-Security-Policy" content="{POLICY}"><meta name="viewport" content="width=device-width">'
+            f'<style>{text("colours.css")}{text(style)}</style></head><body>{body}</body></html>')
+
+
 @functools.cache
 def text(name: str) -> str:
-    """A file of the player, without indentation."""
-    return "\n".join(map(str.lstrip, resources.files(__package__).joinpath(name).read_text(encoding="utf-8").splitlines()))
+    """A file of the player, without indentation and comments."""
+    source = resources.files(__package__).joinpath(name).read_text(encoding="utf-8")
+    return re.sub(r"^\s+|\s*/\*[\s\S]*?\*/|(^|[ ]{2,})// .*$", "", source, flags=re.MULTILINE)

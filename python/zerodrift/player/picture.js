@@ -8,7 +8,6 @@ const sub = (a, b) => a.map((x, i) => x - b[i]), add = (a, b, s = 1) => a.map((x
 const length = a => Math.hypot(...a), unit = a => { const l = length(a) || 1; return a.map(x => x / l); };
 const across = a => [-a[1], a[0]];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-const number = x => x === 0 ? "0" : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-2 ? x.toExponential(2) : x.toPrecision(3);
 
 /* ---- colours ---- */
 
@@ -75,6 +74,7 @@ const begin = () => {
 
 let marks = [], spots = [];
 const MANY = 600, SLICES = 48;      // marks, and slices of depth within which they may change places
+const SMALLEST = 1.1, SHADOW = 0.16;        // radius of a pin on the screen, below which bars alone are drawn; opacity
 const put = (points, style, add, paint) => {
   const seen = points.map(project);
   marks.push({depth: space ? seen.reduce((sum, p) => sum + p[2], 0) / seen.length : 0, order: marks.length, style, seen, add, paint});
@@ -125,15 +125,17 @@ const dot = (at, radius, face, edge, wide = 1.4) => put([at], "dot" + face + edg
   shine.addColorStop(1, "#fff0");
   fill(shine);
 });
+const small = () => film.pin * scale < SMALLEST;       // of long chains neither joints nor outlines are seen
 const bar = (points, wide, tone, edge) => {      // a rod with round ends and an outline; long ones in parts, so that depths are right
-  const parts = space ? Math.max(1, Math.min(8, Math.ceil(length(sub(points[1], points[0])) / (0.15 * reach)))) : 1;
+  const parts = space ? Math.max(1, Math.min(8, Math.ceil(length(sub(points[1], points[0])) / (0.15 * reach)))) : 1, isThin = small();
   for (let i = 0; i < parts; i++) {
     const ends = parts > 1 ? [i / parts, (i + 1) / parts].map(s => add(points[0], sub(points[1], points[0]), s)) : points;
     const broad = Math.max(Math.round(2 * wide * (space ? project(ends[0])[3] : scale)) / 2, 2);
     put(ends, "bar" + broad + tone + edge, seen => trace(seen), (run, many) => {
       pen.lineCap = space ? "butt" : "round";
-      stroke(edge, broad + 2);
+      stroke(edge, isThin ? broad : broad + 2);
       pen.lineCap = "round";
+      if (isThin) return;
       stroke(tone, broad);
       if (!space || many || broad <= 5) return;
       pen.beginPath();
@@ -234,13 +236,31 @@ const lit = (p, tone) => {
   return `rgb(${parts.map(x => Math.min(255, Math.round(x * share))).join(",")})`;
 };
 const face3 = (p, face, edge, wide) => area(p, lit(p, face), edge, wide);
-const glass = tone => tone.replace("rgb(", "rgba(").replace(")", ", 0.55)");        // boxes of inertia, through which one sees their joints
+const glass = tone => tone.replace("rgb(", "rgba(").replace(")", ", 0.7)");        // boxes of inertia, through which one sees their joints
+const middleOf = p => p[0].map((_, k) => p.reduce((sum, at) => sum + at[k], 0) / p.length);
+const isTowards = middle => p => project(middleOf(p))[2] < project(middle)[2];       // faces of what is convex that are seen
+const thick = (p, half, face, edge, wide) => {      // a flat part as a solid
+  const centre = middleOf(p), normal = unit(cross(sub(p[0], centre), sub(p[Math.ceil(p.length / 3)], centre)));
+  const [over, under] = [1, -1].map(sign => p.map(at => add(at, normal, sign * half))), seen = project(add(centre, normal, half))[2] < project(add(centre, normal, -half))[2] ? over : under;
+  for (let i = 0; i < p.length; i++) {
+    const k = (i + 1) % p.length, side = [under[i], under[k], over[k], over[i]];
+    if (isTowards(centre)(side)) face3(side, face, p.length > 12 ? lit(side, face) : edge, 0.8);
+  }
+  face3(seen, face, edge, wide);
+};
+const axes = (p, size) => {         // of a body, from its box: x, y, z
+  const at = middleOf(p);
+  [[4, "second"], [2, "third"], [1, "accent"]].forEach(([i, tone]) => {
+    const along = sub(p[i], p[0]), far = 0.5 * length(along);
+    bar([add(at, unit(along), far), add(at, unit(along), far + 4 * size)], 0.35 * size, tones[tone], tones[tone]);
+  });
+};
 const faces = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
 const solid = {
   bar: (p, r, size, face, edge) => bar(p, 0.9 * size, face, edge),
-  plate: (p, r, size, face, edge) => face3(p, face, edge),
-  box: (p, r, size, face, edge) => faces.forEach(each => area(each.map(i => p[i]), glass(lit(each.map(i => p[i]), face)), edge, 0.8)),
-  disc: (p, r, size, face, edge) => face3(p, face, edge, 1.6), ring: (p, r, size, face, edge) => line([...p, p[0]], edge, 1.4),
+  plate: (p, r, size, face, edge) => thick(p, 0.5 * size, face, edge, 1),
+  box: (p, r, size, face, edge) => { faces.map(each => each.map(i => p[i])).filter(isTowards(middleOf(p))).forEach(each => area(each, glass(lit(each, face)), edge, 0.8)); axes(p, size); },
+  disc: (p, r, size, face, edge) => thick(p.slice(0, -1), 0.6 * size, face, edge, 1.2), ring: (p, r, size, face, edge) => line([...p, p[0]], edge, 1.4),
   patch: (p, r, size) => area([[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([a, b]) => add(add(p[0], p[1], 2 * a * size), p[2], 2 * b * size)), null, tones.accent),
   rod: (p, r, size, face, edge) => line(p, edge, 1.6), track: (p, r, size) => line(p, tones.grey, 1, [2, 4]),
   spring: (p, r, size) => line(zigzag(p[0], p[1], 0.9 * size, 9), tones.third, 1.6),
@@ -263,35 +283,51 @@ const shifted = (p, r, size) => { const side = across(unit(sub(p[1], p[0]))); re
 
 /* ---- a picture ---- */
 
-/* What goes far is followed, and a grid at rest shows how it goes. */
+/* In space a floor lies below all motion, on which parts have a shadow. What goes far is followed, and a grid at rest shows how it goes. */
+const floorAt = () => film.upside ? film.high[2] : film.low[2];
 const follow = () => {
   const layer = film.layers[0], seen = layer.shapes.map(each => each[2][0]).filter(n => n >= 0).map(n => place(layer, n));
   centre = film.low.map((_, k) => (Math.min(...seen.map(at => at[k])) + Math.max(...seen.map(at => at[k]))) / 2);
-  const near = film.follow / 3, power = 10 ** Math.floor(Math.log10(near)), step = power * [1, 2, 5].findLast(each => each * power <= near * 1.001);
-  const [a, b] = [0, 1].map(k => Math.round(centre[k] / step)), most = space ? 4 : 8, floor = space ? [film.upside ? film.high[2] : film.low[2]] : [];
+};
+const grid = () => {
+  const wide = film.follow || Math.max(extent[0], extent[1], 0.4 * extent[2]), size = wide / (film.follow ? 3 : 5), power = 10 ** Math.floor(Math.log10(size)), step = power * [1, 2, 5].findLast(each => each * power <= size * 1.001);
+  const [a, b] = [0, 1].map(k => Math.round(centre[k] / step)), most = film.follow ? space ? 4 : 8 : Math.ceil(0.62 * wide / step), floor = space ? [floorAt()] : [];
   for (let i = -most; i <= most; i++) {
     line([[(a + i) * step, (b - most) * step, ...floor], [(a + i) * step, (b + most) * step, ...floor]], tones.body, 0.7);
     line([[(a - most) * step, (b + i) * step, ...floor], [(a + most) * step, (b + i) * step, ...floor]], tones.body, 0.7);
   }
   marks.forEach(each => { each.depth = Infinity; });
 };
+const shadow = points => {
+  const seen = points.map(at => project([at[0], at[1], floorAt()]));
+  marks.push({depth: 1e9, order: marks.length, style: "shadow" + (points.length > 2), seen, add: seen => trace(seen, points.length > 2), paint: () => {
+    pen.globalAlpha = SHADOW;
+    if (points.length > 2) fill(tones.ink); else stroke(tones.ink, Math.max(2, 1.5 * film.pin * scale));
+    pen.globalAlpha = 1;
+  }});
+};
+const shades = new Set(["bar", "plate", "disc", "ring", "box", "rod"]);
 
 const anchor = points => points.length > 1 ? points[0].map((x, i) => (x + points[1][i]) / 2) : points[0];
 const single = new Set(["pin", "ball", "weld", "ground", "sleeve", "slider", "block", "wheel", "gear", "patch", "motor", "drive", "disc", "particle", "dot", "bushing", "blade", "mark"]);
+const joints = new Set(["pin", "ball", "weld", "sleeve", "dot", "particle", "mark"]);
 const back = ["ring", "gear", "cam", "ground", "wall", "rail", "road", "wheel", "disc", "coupled", "guide", "link", "curve", "groove", "rod", "cylinder", "damper", "spring", "slider", "rack", "block", "bushing", "weld", "particle", "roller", "spiral", "pin"];
 const draw = note => {
   begin();
   marks = [];
   spots = [];
   if (film.follow) follow();
+  if (film.follow || space) grid();
   film.layers.forEach((layer, number) => {
     const face = number ? "transparent" : tones.body, edge = [tones.line, tones.second, tones.accent][number % 3];
     layer.order ??= space ? layer.shapes : [...layer.shapes].sort((a, b) => (back.indexOf(a[0]) + 1 || 99) - (back.indexOf(b[0]) + 1 || 99));
     for (const [kind, name, numbers, radius] of layer.order) {
+      if (joints.has(kind) && small()) continue;
       const points = numbers.map(i => place(layer, i));
+      if (space && shades.has(kind)) (kind === "box" ? faces.map(each => each.map(i => points[i])) : [points]).forEach(shadow);
       const how = (space ? solid : flat)[kind] || ((p, r, size, f, e) => line(p, e, 1.4));
       how(points, radius, film.pin * (space ? 1.25 : 1), face, edge);
-      if (name) spots.push({name, at: single.has(kind) ? points[0] : anchor(points)});
+      if (name) spots.push({name, at: single.has(kind) ? points[0] : anchor(points), isSingle: single.has(kind)});
     }
     for (const way of layer.paths) line(way, tones.path, 1.5, [7, 4]);
     for (const each of layer.arrows) {
@@ -311,24 +347,32 @@ const words = (text, x, y, tone = tones.ink) => {
   pen.fillStyle = tone;
   pen.fillText(text, x, y);
 };
+/* A name stands at the first of some places that is free, and is left out where there is none. */
+const BESIDE = [[8, -7], [8, 15], [-8, -7], [-8, 15], [14, 4], [-14, 4]];
+const spotOf = name => spots.find(each => each.name === name && each.isSingle) ?? spots.find(each => each.name === name);
 const labels = note => {
-  const shown = new Set();
-  if (film.names) for (const {name, at} of spots) {
-    if (shown.has(name)) continue;
-    shown.add(name);
-    const [x, y] = project(at);
-    words(name, x + 8, y - 7);
+  const taken = [], places = film.names ? spots.filter(each => each.isSingle).map(({name, at}) => [name, ...project(at)]) : [];
+  const isFree = (box, name) => taken.every(each => box[2] < each[0] || box[0] > each[2] || box[3] < each[1] || box[1] > each[3])
+    && places.every(([other, x, y]) => other === name || x < box[0] || x > box[2] || y < box[1] || y > box[3]);
+  pen.font = "12px system-ui, sans-serif";
+  if (film.names) for (const name of new Set(spots.map(each => each.name))) {
+    const [x, y] = project(spotOf(name).at), wide = pen.measureText(name).width;
+    const boxes = BESIDE.map(([right, down]) => { const left = right > 0 ? x + right : x + right - wide; return [left, y + down - 11, left + wide, y + down + 2]; });
+    const box = boxes.find(each => isFree(each, name) && each[0] > 0 && each[2] < width && each[1] > 0 && each[3] < height);
+    if (!box) continue;
+    taken.push(box);
+    words(name, box[0], box[3] - 2);
   }
   const scales = film.layers.flatMap(layer => layer.arrows);
   if (scales.length) {
-    const most = scales[0].scale, long = film.arrow * scale;
+    const long = film.arrow * scale, text = "force " + shortly(scales[0].scale) + " N";
     pen.beginPath();
     trace([[12, height - 12], [12 + long, height - 12]]);
     stroke(tones.force, 2.4);
-    words(number(most) + " N", 16, height - 18, tones.force);
+    words(text, 12, height - 18, tones.force);
   }
   if (film.layers.length > 1) film.layers.forEach((layer, i) => words(layer.label, 12, 18 + 16 * i, [tones.line, tones.second, tones.accent][i % 3]));
-  const spot = view.chosen && spots.find(each => each.name === view.chosen);
+  const spot = view.chosen && spotOf(view.chosen);
   if (spot) ring(spot.at, note);
 };
 const ring = (at, note = "") => {
@@ -350,5 +394,5 @@ const thread = (at, [x, y]) => {        // from a point to one of the screen
 const turnBy = (x, y) => { view.turn -= x; view.tilt = Math.min(Math.max(view.tilt + y, -1.5), 1.5); changed(); };
 const zoomBy = factor => { view.zoom = Math.min(Math.max(view.zoom * factor, 0.2), 20); changed(); };
 readColours();
-return {view, tones, fit, frame, draw, ring, thread, project, unproject, place, number, turnBy, zoomBy, sub, cross, length, get spots() { return spots; }, get scale() { return scale; }};
+return {view, tones, fit, frame, draw, ring, thread, project, unproject, place, turnBy, zoomBy, sub, cross, length, get spots() { return spots; }, get scale() { return scale; }};
 };

@@ -16,20 +16,20 @@ for (const layer of film.layers) {
   });
   for (const load of layer.loads) load.values = levels(load, load.values);
 }
-for (const line of [...film.graphs, ...film.trust]) line.values = new Float32Array(bytes(line.values));
+for (const line of [...film.graphs, ...film.trust]) {
+  line.values = new Float32Array(bytes(line.values));
+  if (film.layers.length > 1) line.name = line.label + " " + line.name;
+}
 
-const shown = () => film.nearest ? Math.round(now) : now;       // where straight lines between samples would change the shapes, samples alone
-const locate = layer => {       // points on straight lines between two samples, then those that bodies carry
-  const i = Math.min(Math.floor(shown()), last), share = shown() - i, d = film.dimension, from = i * layer.moving * d, to = Math.min(i + 1, last) * layer.moving * d;
-  const low = film.box[0], step = film.box[1].map((x, k) => (x - low[k]) / 65535), table = layer.table, vectors = layer.moving - layer.vectors;
-  layer.at = Array.from({length: layer.moving}, (_, n) => {
-    const found = new Array(d);
-    for (let k = 0; k < d; k++) {
-      const level = table[from + n * d + k] * (1 - share) + table[to + n * d + k] * share;
-      found[k] = n < vectors ? low[k] + step[k] * level : 2 * level / 65535 - 1;       // vectors of arrows have a box of their own
-    }
-    return found;
-  });
+const shown = () => film.nearest ? Math.round(now) : now;       // where cubics through samples would change the shapes, samples alone
+const sharesOf = s => [-s * (s - 1) * (s - 2) / 6, (s + 1) * (s - 1) * (s - 2) / 2, -(s + 1) * s * (s - 2) / 2, (s + 1) * s * (s - 1) / 6];
+const locate = layer => {       // points on cubics through four samples, then those that bodies carry
+  const d = film.dimension, low = film.box[0], step = film.box[1].map((x, k) => (x - low[k]) / 65535), {table} = layer, vectors = layer.moving - layer.vectors;
+  const first = Math.min(Math.max(Math.floor(shown()) - 1, 0), Math.max(last - 3, 0)), shares = last < 3 ? [1] : sharesOf(shown() - first - 1);
+  layer.at = Array.from({length: layer.moving}, (_, n) => Array.from({length: d}, (_, k) => {
+    const level = shares.reduce((sum, share, i) => sum + share * table[((first + i) * layer.moving + n) * d + k], 0);
+    return n < vectors ? low[k] + step[k] * level : 2 * level / 65535 - 1;       // vectors of arrows have a box of their own
+  }));
   for (const [base, own] of layer.carried) {
     const [a, b, c] = base.map(n => place(layer, n)), along = sub(b, a);
     if (!space) { layer.at.push([a[0] + own[0] * along[0] - own[1] * along[1], a[1] + own[0] * along[1] + own[1] * along[0]]); continue; }
@@ -58,69 +58,45 @@ const clock = make("output", controls);
 const speeds = make("select", controls, {"aria-label": "Speed of the film"});
 for (const each of [0.1, 0.25, 0.5, 1, 2, 4]) make("option", speeds, {value: each}).textContent = each + " x";
 speeds.value = 1;
+const file = (name, blob) => {
+  const link = document.createElement("a");
+  Object.assign(link, {href: URL.createObjectURL(blob), download: `${film.name}.${name}`});
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+};
+const table = () => {           // what is graphed, one line for each time
+  const all = [...film.graphs, ...film.trust], count = all[0].values.length, quoted = text => `"${text.replaceAll('"', '""')}"`;
+  const rows = Array.from({length: count}, (_, i) => [film.span[0] + (film.span[1] - film.span[0]) * i / Math.max(count - 1, 1), ...all.map(each => each.values[i])].join());
+  return [["t [s]", ...all.map(each => `${each.name} [${each.unit}]`)].map(quoted).join(), ...rows, ""].join("\n");
+};
+const acts = {"Full screen": () => document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen().catch(() => 0),
+  "Picture": () => canvas.toBlob(blob => file("png", blob)), ...film.graphs.length + film.trust.length ? {"Table": () => file("csv", new Blob([table()], {type: "text/csv"}))} : {}};
+const more = make("select", controls, {"aria-label": "More"});
+for (const name of ["More", ...Object.keys(acts)]) make("option", more).textContent = name;
+more.addEventListener("change", () => { acts[more.value]?.(); more.selectedIndex = 0; });
 const trust = film.trust.length ? make("canvas", make("div", document.body, {class: "trust"}), {role: "img", "aria-label": "Position violation and energy error over time"}) : null;
 const note = make("div", document.body, {class: "note", "aria-live": "polite"});
+const thinned = note.textContent = film.thinned ? `${film.samples} samples of the motion are shown.` : "";
 const picture = pictureOf(film, canvas, () => { dirty = true; });
-const {view, tones, fit, place, number, turnBy, zoomBy, sub, cross, length, project} = picture;
+const {view, tones, place, turnBy, zoomBy, sub, cross, length, project} = picture;
 
 /* ---- a picture ---- */
 
 const draw = () => {
   film.layers.forEach(locate);
   picture.draw(view.chosen && told());
-  if (trust) lines(trust, film.trust.map(each => ({...each, log: true})), true);
-  graphs.forEach(each => lines(each.canvas, each.lines, false, each.unit));
+  const [from, to] = film.span, how = {from, to, now: seconds(), key: "film"};
+  if (trust) graph(trust, picture, film.trust, {...how, log: true});
+  graphs.forEach(each => graph(each.canvas, picture, each.lines, how));
+  if (view.chosen && (!playing || now < said || now > said + film.samples / 10)) [said, note.textContent] = [now, told()];
 };
+let said = 0;               // time of the line for screen readers, which follows a motion in tenths
 const told = () => {        // the chosen part, and its forces in each of the films
-  const loads = film.layers.flatMap(layer => layer.loads.filter(each => each.name === view.chosen).map(each => number(at(each.values)) + " " + each.unit));
-  const arrows = loads.length ? [] : film.layers.flatMap(layer => layer.arrows.filter(each => each.name === view.chosen).map(each => number(each.size) + " N"));
+  const loads = film.layers.flatMap(layer => layer.loads.filter(each => each.name === view.chosen).map(each => shortly(at(each.values)) + " " + each.unit));
+  const arrows = loads.length ? [] : film.layers.flatMap(layer => layer.arrows.filter(each => each.name === view.chosen).map(each => shortly(each.size) + " N"));
   return [view.chosen, [...loads, ...arrows].join(", ")].filter(Boolean).join(": ");
 };
 const at = values => { const i = Math.min(Math.floor(shown()), last), next = values[Math.min(i + 1, last)]; return values[i] + (next - values[i]) * (shown() - i); };
-const hues = () => [tones.accent, tones.second, tones.third, tones.ink, tones.grey, tones.force];
-const lines = (element, all, slim, unitOf) => {        // lines over time, with a cursor; the lines are drawn once for each size
-  const brush = element.getContext("2d"), [w, h] = fit(element, brush), left = slim ? 0 : 8, top = slim ? 14 : 20, low = slim ? 4 : 8;
-  const known = [element.width, element.height, tones.ink].join();
-  if (element.known !== known) {
-    element.known = known;
-    element.drawn = document.createElement("canvas");
-    element.drawn.width = element.width;
-    element.drawn.height = element.height;
-    const curves = element.drawn.getContext("2d");
-    curves.setTransform(brush.getTransform());
-    curve(curves, all, slim, left, w - 2 * left, top, h - low);
-  }
-  brush.clearRect(0, 0, w, h);
-  if (element.width && element.height) brush.drawImage(element.drawn, 0, 0, w, h);
-  brush.font = "11px system-ui, sans-serif";
-  let word = left;
-  all.forEach((line, i) => {
-    brush.fillStyle = hues()[i % 6];
-    const text = (film.layers.length > 1 ? line.label + " " : "") + line.name + " " + (slim ? "\u2264 " + number(line.most) + " " + line.unit : isNaN(line.values[Math.round(now)]) ? "" : number(line.values[Math.round(now)]) + " " + line.unit);
-    brush.fillText(text, word, 11);
-    word += brush.measureText(text).width + 16;
-  });
-  const x = left + (w - 2 * left) * now / Math.max(last, 1);
-  brush.strokeStyle = tones.ink;
-  brush.lineWidth = 1;
-  brush.beginPath();
-  brush.moveTo(x, top);
-  brush.lineTo(x, h);
-  brush.stroke();
-};
-const curve = (brush, all, slim, left, wide, top, low) => {
-  const tiny = 1e-18, value = (line, x) => line.log ? Math.log10(Math.max(Math.abs(x), tiny)) : x;
-  const shared = slim ? null : [Math.min(...all.map(each => each.least)), Math.max(...all.map(each => each.most))];
-  all.forEach((line, i) => {
-    const seen = Array.from(line.values, x => value(line, x)), known = seen.filter(x => !isNaN(x)), [a, b] = shared || [Math.min(...known), Math.max(...known)];
-    brush.beginPath();
-    seen.forEach((x, k) => brush[k ? "lineTo" : "moveTo"](left + wide * k / Math.max(last, 1), low - (low - top) * (b > a ? (x - a) / (b - a) : 0.5)));
-    brush.strokeStyle = hues()[i % 6];
-    brush.lineWidth = 1.5;
-    brush.stroke();
-  });
-};
-
 /* ---- time ---- */
 
 const seconds = () => film.span[0] + (film.span[1] - film.span[0]) * (last ? now / last : 0);
@@ -151,6 +127,7 @@ const frame = stamp => {
 /* Films that replace each other, as behind sliders, go on where the one before is: a new one asks the frames of its page. */
 const state = () => ({group: film.group, zerodrift: "state", time: seconds(), playing, rate, view: [view.zoom, view.turn, view.tilt, view.shift], chosen: view.chosen});
 addEventListener("message", ({data, source}) => {
+  if (data?.zerodrift === "play") play(data.on);          // a card of the site
   if (!film.group || data?.group !== film.group) return;
   if (data.zerodrift === "where" && source !== window) source.postMessage(state(), "*");
   if (data.zerodrift !== "state" || state.known) return;
@@ -163,13 +140,13 @@ addEventListener("message", ({data, source}) => {
 });
 if (film.group) for (let i = 0; i < parent.length; i++) if (parent[i] !== window) parent[i].postMessage({group: film.group, zerodrift: "where"}, "*");
 window.zerodrift = {film, tones, play, show: value => { play(false); set(value); draw(); }, choose: name => choose(name), get now() { return now; }, get playing() { return playing; },
-  get told() { return told(); }, get spots() { return picture.spots.map(({name, at}) => ({name, at: project(at)})); }};
+  table, get told() { return told(); }, get spots() { return picture.spots.map(({name, at}) => ({name, at: project(at)})); }};
 
 button.addEventListener("click", () => play(!playing));
 slider.addEventListener("input", () => { play(false); set(+slider.value); });
 speeds.addEventListener("change", () => { rate = +speeds.value; });
 document.addEventListener("keydown", event => {
-  if (event.target === speeds || (event.target === button && event.key === " ")) return;
+  if (event.target === speeds || event.target === more || (event.target === button && event.key === " ")) return;
   if (event.ctrlKey || event.metaKey || event.altKey) return;
   const step = {ArrowRight: 1, ArrowLeft: -1, PageDown: 10, PageUp: -10}[event.key];
   const way = {ArrowRight: [-1, 0], ArrowLeft: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key];
@@ -213,7 +190,7 @@ const next = way => {
 };
 const choose = name => {
   view.chosen = name;
-  note.textContent = view.chosen ? told() : "";
+  note.textContent = view.chosen ? told() : thinned;
   dirty = true;
 };
 canvas.addEventListener("wheel", event => {
@@ -223,6 +200,8 @@ canvas.addEventListener("wheel", event => {
 }, {passive: false});
 canvas.addEventListener("dblclick", () => { view.zoom = 1; view.shift = [0, 0]; dirty = true; });
 new ResizeObserver(() => { dirty = true; }).observe(document.body);
-play(playing);
+const moment = /^#t=([\d.e+-]+)$/.exec(location.hash);        // a link to a moment
+play(playing && !moment);
+if (moment && last) set((moment[1] - film.span[0]) / (film.span[1] - film.span[0]) * last);
 requestAnimationFrame(frame);
 })();

@@ -2,7 +2,7 @@
 
 Points that several shapes share are written once; points at rest are not in the table of moving points. Coordinates are 16-bit
 integers within the box around all of them: an error of 1e-5 of the picture; vectors of arrows within a box from -1 to 1. Between
-samples points move along straight lines; where these would change the shapes, the nearest sample is shown.
+samples points move along cubics through four of them; where these would change the shapes, the nearest sample is shown.
 """
 
 from __future__ import annotations
@@ -24,13 +24,17 @@ from ..runs.samples.solution import Solution
 from ..systems.shapes import Shape
 from .rigid import carried
 
-RATE = 60               # samples for each second of the film
+RATE, RATE_OF_LINES = 20, 60    # samples of points, and of graphs and paths, for each second of the film
 MAX_SAMPLES = 900      # of a film; longer ones are thinned
+LARGEST, FEWEST = 320_000, 4        # bytes of samples, of which films of more points have fewer; samples of a cubic
 SHORTEST, LONGEST = 3.0, 15.0   # s: films of shorter and longer motions are slower and faster than these
 RESTS = 1e-9            # of the picture: points that move less rest
-STRAIGHT = 0.01         # of the size of a shape: straight lines between samples that deviate less from the motion are drawn
+SMOOTH = 0.01           # of the size of a shape: cubics through samples that deviate less from the motion are drawn
+MOVES = 0.5             # of the size of the picture: its weight beside that of a shape
 BETWEEN = 0.382         # of the time between two samples, where they are compared: no simple fraction, as whole turns end there
-LEVELS = 65535          # of a coordinate
+NODES = -1, 0, 1, 2     # samples of a cubic, between the second and the third of which it is drawn
+CUBIC = tuple(np.prod([(BETWEEN - k) / (j - k) for k in NODES if k != j]) for j in NODES)      # weights at the comparison
+LEVELS, APART = 65535, 12       # of a coordinate; those by which points in one place deviate at most
 PIN = 0.017             # of the picture: a pin's radius
 SLENDER = 0.13          # of the short bars, the quarter of all: no pin is larger
 ROUND = ("wheel", "gear", "ring")       # kinds of shapes whose number is a radius
@@ -60,15 +64,25 @@ class Wanted:
 
 
 def scene(solutions: Sequence[Solution], labels: Sequence[str], wanted: Wanted) -> dict[str, Any]:
-    """The film of solutions of the same time span, drawn over each other."""
+    """The film of solutions of the same time span, drawn over each other, with fewer samples where it would be too large."""
+    most = max(FEWEST, min(wanted.samples, LARGEST // sum(map(_bytes, solutions))))
+    film = _scene(solutions, labels, wanted, most)
+    while (size := 0.75 * sum(len(layer["points"]) for layer in film["layers"])) > LARGEST and most > FEWEST:
+        most = max(FEWEST, int(0.95 * most * LARGEST / size))
+        film = _scene(solutions, labels, wanted, most)
+    return film
+
+
+def _scene(solutions: Sequence[Solution], labels: Sequence[str], wanted: Wanted, most: int) -> dict[str, Any]:
     first = solutions[0]
     if len({_drawn(sol, sol.t[:1])[1].shape[2] for sol in solutions}) > 1:
         raise WrongValue("solutions must be all of the plane or all of space, to be drawn over each other", "wrong-dimension")
     t0, t1 = float(first.t[0]), float(max(sol.t[-1] for sol in solutions))
     speed = wanted.speed or _speed(t1 - t0)
-    count = int(np.clip(RATE * (t1 - t0) / speed, 2, wanted.samples)) if t1 > t0 else 1
-    times, is_straight = _times(solutions, np.linspace(t0, t1, count), wanted.samples)
-    layers = [_layer(sol, times, wanted) for sol in solutions]
+    times, lines = (np.linspace(t0, t1, int(np.clip(rate * (t1 - t0) / speed, FEWEST, limit)) if t1 > t0 else 1)
+                    for rate, limit in ((RATE, most), (RATE_OF_LINES, wanted.samples)))
+    times, is_smooth = _times(solutions, times, most)
+    layers = [_layer(sol, times, lines, wanted) for sol in solutions]
     every = np.concatenate([layer["table"][:, :layer["vectors"]].reshape(-1, layer["table"].shape[2]) for layer in layers])
     places = np.concatenate([layer["extent"] for layer in layers])
     follow = _follow(layers, places)
@@ -79,13 +93,14 @@ def scene(solutions: Sequence[Solution], labels: Sequence[str], wanted: Wanted) 
     box = every.min(axis=0), every.max(axis=0)
     labelled = list(zip(map(dense, solutions), labels, strict=True))
     return {"name": first.system.name, "upside": is_upside_down(first.system),
-            "span": [t0, t1], "samples": len(times), "nearest": not is_straight, "speed": speed,
+            "span": [t0, t1], "samples": len(times), "nearest": not is_smooth, "speed": speed,
+            "thinned": most < wanted.samples and len(times) == most,
             "dimension": int(places.shape[1]), "low": low.tolist(), "high": high.tolist(), "follow": follow,
             "pin": _pin(layers[0], float(shown.max() or 1.0)), "arrow": arrow,
             "box": [side.tolist() for side in box], "names": wanted.names, "group": wanted.group,
             "layers": [_packed(layer, box, label) for layer, label in zip(layers, labels, strict=True)],
-            "graphs": [line for sol, label in labelled for line in _graphs(sol, times, wanted.graphs, label)],
-            "trust": [line for sol, label in labelled for line in _trust(sol, times, label)]}
+            "graphs": [line for sol, label in labelled for line in _graphs(sol, lines, wanted.graphs, label)],
+            "trust": [line for sol, label in labelled for line in _trust(sol, lines, label)]}
 
 
 def _speed(duration: float) -> float:
@@ -97,32 +112,48 @@ def _speed(duration: float) -> float:
     return float(next(times * power for times in (5, 2, 1) if times * power <= wanted * (1 + 1e-12)))
 
 
+def _bytes(sol: Solution) -> int:
+    """Size of a sample: of points that differ, and of forces that clicks show."""
+    _, points = _drawn(sol, sol.t[[0, len(sol.t) // 2]])
+    different = np.unique(np.round(points.swapaxes(0, 1).reshape(points.shape[1], -1), 9), axis=0)
+    return 2 * (len(different) * points.shape[2] + len(_loaded(sol)))
+
+
 def _times(solutions: Sequence[Solution], times: np.ndarray, most: int) -> tuple[np.ndarray, bool]:
-    """Times of samples, more than given, but at most so many, where straight lines between them would change the shapes; and
-    whether these lines may be drawn.
+    """Times of samples, more than given, but at most so many, where cubics through them would change the shapes; and whether
+    these cubics may be drawn.
     """
-    while (deviation := max(_deviation(sol, times) for sol in solutions)) > STRAIGHT and len(times) < most:
-        count = int(np.ceil(1.1 * len(times) * np.sqrt(deviation / STRAIGHT)))      # it falls with the square of their distance
+    while (deviation := max(_deviation(sol, times) for sol in solutions)) > SMOOTH and len(times) < most:
+        count = int(np.ceil(1.1 * len(times) * (deviation / SMOOTH) ** 0.3))      # by a power of their distance
         times = np.linspace(times[0], times[-1], min(count, most))
-    return times, deviation <= STRAIGHT
+    return times, deviation <= SMOOTH
 
 
 def _deviation(sol: Solution, times: np.ndarray) -> float:
-    """Largest error of straight lines between samples in the shape of a part: of its points as seen from its first one, and of
-    its directions, as part of its size.
+    """Largest error of cubics through samples in the shape of a part: of its points as seen from its first one, and of
+    its directions, as part of its size; and that of all points, as part of the picture.
     """
-    between = times[:-1] + BETWEEN * np.diff(times)
+    if len(times) < 4:
+        return 0.0
+    between = times[1:-2] + BETWEEN * np.diff(times)[1:-1]
     shapes, points = _drawn(sol, np.concatenate([times, between]))
     ends = np.cumsum([len(shape.points) for shape in shapes])
     starts = ends - [len(shape.points) for shape in shapes]
     directions = np.concatenate([np.arange(len(shape.points)) >= count_places(shape) for shape in shapes])
     origins = points[:, np.repeat(starts, ends - starts)]
     origins[:, directions] = 0.0
-    samples, known = np.split(points - origins, [len(times)])
-    errors = np.linalg.norm(known - (1 - BETWEEN) * samples[:-1] - BETWEEN * samples[1:], axis=2).max(axis=0, initial=0.0)
-    sizes = np.linalg.norm(samples, axis=2).max(axis=0)
-    sizes = np.maximum(np.maximum.reduceat(sizes, starts), RESTS * (np.ptp(points, axis=(0, 1)).max() or 1.0))
-    return float((np.maximum.reduceat(errors, starts) / sizes).max())
+    size = float(np.ptp(points, axis=(0, 1)).max()) or 1.0
+    sizes = np.linalg.norm((points - origins)[:len(times)], axis=2).max(axis=0)
+    sizes = np.maximum(np.maximum.reduceat(sizes, starts), RESTS * size)
+    errors = _errors(points - origins, len(times))
+    return float(max((np.maximum.reduceat(errors, starts) / sizes).max(), (_errors(points, len(times)) / (MOVES * size)).max()))
+
+
+def _errors(points: np.ndarray, count: int) -> np.ndarray:
+    """Largest error of cubics through the first samples, at the times between them that follow, for each point."""
+    samples, known = np.split(points, [count])
+    cubics = sum(weight * samples[i:count - 3 + i] for i, weight in enumerate(CUBIC))
+    return np.linalg.norm(known - cubics, axis=2).max(axis=0, initial=0.0)
 
 
 def _drawn(sol: Solution, times: np.ndarray) -> tuple[list[Shape], np.ndarray]:
@@ -142,7 +173,7 @@ def _follow(layers: Sequence[dict[str, Any]], places: np.ndarray) -> float:
     return 0.0
 
 
-def _layer(sol: Solution, times: np.ndarray, wanted: Wanted) -> dict[str, Any]:
+def _layer(sol: Solution, times: np.ndarray, lines: np.ndarray, wanted: Wanted) -> dict[str, Any]:
     """Shapes of a solution at all times, points in a table (times, points, dimension)."""
     shapes, points = _drawn(sol, times)
     sol = dense(sol)
@@ -153,7 +184,7 @@ def _layer(sol: Solution, times: np.ndarray, wanted: Wanted) -> dict[str, Any]:
     seen, moves = _seen(points, entries)
     loads = _loads(sol, times)
     arrows, columns_of_arrows = _arrows(sol, times, wanted.forces, _force(loads, float(np.ptp(points, axis=(0, 1)).max() or 1.0)))
-    paths = [np.column_stack([np.interp(times, sol.t, each) for each in path.T]) for path in paths_of(sol, wanted.path or ())]
+    paths = [np.column_stack([np.interp(lines, sol.t, each) for each in path.T]) for path in paths_of(sol, wanted.path or ())]
     return {"table": np.concatenate([points, *columns_of_arrows], axis=1), "entries": entries, "arrows": arrows, "paths": paths,
             "loads": loads, "seen": seen, "moves": moves, "own": points.shape[1], "vectors": points.shape[1] + len(arrows),
             "extent": np.concatenate([seen.reshape(-1, points.shape[2]), *paths])}
@@ -227,11 +258,8 @@ def _tips(layer: dict[str, Any], arrow: float) -> np.ndarray:
 
 def _loads(sol: Solution, times: np.ndarray) -> list[dict[str, Any]]:
     """Forces and torques of joints and force elements over time, which a click shows: magnitudes of vectors, signed scalars."""
-    names = [name for name in sol.measures if name.endswith((".force", ".torque"))]
-    if len(names) > MAX_LOADS:
-        return []
     found = []
-    for name in names:
+    for name in _loaded(sol):
         values = np.asarray(sol[name], dtype=float)
         values = np.linalg.norm(values, axis=1) if values.ndim == 2 else values
         element, _, kind = name.rpartition(".")
@@ -239,6 +267,12 @@ def _loads(sol: Solution, times: np.ndarray) -> list[dict[str, Any]]:
             found.append({"name": element, "unit": "N" if kind == "force" else "N m"} | _levels(np.interp(times, sol.t, values)))
     most = max((abs(each["least"]) + each["size"] for each in found), default=0.0)
     return [each for each in found if each["unit"] == "N" or each["size"] + abs(each["least"]) > NOTHING * most]
+
+
+def _loaded(sol: Solution) -> list[str]:
+    """Measures that a film contains for clicks."""
+    names = [name for name in sol.measures if name.endswith((".force", ".torque"))]
+    return names if len(names) <= MAX_LOADS else []
 
 
 def _packed(layer: dict[str, Any], box: tuple[np.ndarray, np.ndarray], label: str) -> dict[str, Any]:
@@ -252,13 +286,13 @@ def _packed(layer: dict[str, Any], box: tuple[np.ndarray, np.ndarray], label: st
     followers = carried(table, _bodies(layer, moves), float(size.max()))
     kinds = ["rests" if not moves[i] else "carried" if i in followers else "moves" for i in range(table.shape[1])]
     lists: dict[str, list[int]] = {"rests": [], "moves": [], "carried": []}
-    numbers, known = [], {}
+    numbers = []
     for i, kind in enumerate(kinds):
-        key = kind, is_vector[i], levels[0, i].tobytes() if kind == "rests" else levels[:, i].tobytes()
-        if key not in known:
-            known[key] = len(lists[kind])
-            lists[kind].append(i)
-        numbers.append(known[key])
+        known = lists[kind]
+        same = _same(levels, known, i) if not is_vector[i] else None
+        numbers.append(len(known) if same is None else same)
+        if same is None:
+            known.append(i)
     first = {"rests": lambda n: -1 - n, "moves": lambda n: n, "carried": lambda n: n + len(lists["moves"])}
     numbers = [first[kind](n) for kind, n in zip(kinds, numbers, strict=True)]
     shapes = [[shape.kind, shape.name, [numbers[i] for i in those], round(float(shape.number), 9)]
@@ -270,6 +304,14 @@ def _packed(layer: dict[str, Any], box: tuple[np.ndarray, np.ndarray], label: st
             "carried": [[[numbers[k] for k in followers[i][0]], np.round(followers[i][1], 6).tolist()] for i in lists["carried"]],
             "fixed": [table[0, i].tolist() for i in lists["rests"]], "paths": [_path(path) for path in layer["paths"]],
             "loads": layer["loads"]}
+
+
+def _same(levels: np.ndarray, known: list[int], i: int) -> int | None:
+    """Place among known points of one that moves as point i: joined points deviate a little between samples of the run."""
+    for n in np.flatnonzero(np.abs(levels[0, known].astype(int) - levels[0, i]).max(axis=1, initial=0) <= APART):
+        if np.abs(levels[:, known[n]].astype(int) - levels[:, i]).max() <= APART:
+            return int(n)
+    return None
 
 
 def _bodies(layer: dict[str, Any], moves: np.ndarray) -> list[list[int]]:
@@ -302,7 +344,7 @@ def _graphs(sol: Solution, times: np.ndarray, names: Any, label: str) -> list[di
 def _trust(sol: Solution, times: np.ndarray, label: str) -> list[dict[str, Any]]:
     """Constraint violation and energy error over time."""
     found = []
-    for name, unit, values in (("position violation", "", sol.position_violation), ("energy error", "J", sol.energy_violation)):
+    for name, unit, values in (("position violation", "m", sol.position_violation), ("energy error", "J", sol.energy_violation)):
         if values is not None and np.size(values):
             values = np.abs(np.asarray(values, dtype=float)).reshape(len(sol.t), -1).max(axis=1)
             found.append(_line(name, unit, sol.t, values, times, label))

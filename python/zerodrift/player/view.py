@@ -16,7 +16,7 @@ from .._private.types import MeasureLike, Measures, Mechanism, Point
 from ..errors import WrongType, WrongValue, ZerodriftError
 from ..runs.samples.solution import A_SOLUTION, Solution
 from ..systems.base import Makes
-from .page import Page, text
+from .page import Page, document, text
 from .scene import Wanted, scene
 
 HEIGHT = 460            # of a film in a notebook, in points of the screen
@@ -46,13 +46,15 @@ class View(Page):
 
     @functools.cached_property
     def page(self) -> str:
-        name = html.escape(self._scene["name"])
+        return self._page(f"<script>{player()}</script>")
+
+    def linked(self, script: str) -> str:
+        """Page that loads the player from this address of a script, for sites with several films; `player` has the script."""
+        return self._page(f'<script src="{html.escape(script, quote=True)}"></script>')
+
+    def _page(self, script: str) -> str:
         data = json.dumps(self._scene, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
-        return (f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{name}</title>'
-                f'<meta name="viewport" content="width=device-width">'
-                f'<style>{text("colours.css")}{text("player.css")}</style></head><body>'
-                f'<script type="application/json" id="scene">{data}</script>'
-                f'<script>{text("picture.js")}{text("player.js")}</script></body></html>')
+        return document(self._scene["name"], "player.css", f'<script type="application/json" id="scene">{data}</script>{script}')
 
     def save(self, path: str | Path) -> Path:
         """Write the film to an HTML file, which needs no other file and no network.
@@ -85,7 +87,7 @@ class View(Page):
                           'style="position:absolute;max-width:100%;max-height:100%">')
 
     def frame(self, behind: str = "") -> str:
-        """The film as a frame that may run scripts and nothing else.
+        """The film as a frame that may run scripts, offer its picture and table as files, and fill the screen, and nothing else.
 
         Parameters
         ----------
@@ -99,7 +101,8 @@ class View(Page):
         """
         name = html.escape(self._scene["name"], quote=True)
         return (f'<div style="position:relative;height:{self.height}px;max-width:960px">{behind}'
-                f'<iframe title="Film of {name}" sandbox="allow-scripts" srcdoc=\'{_quoted(self.page)}\' '
+                f'<iframe title="Film of {name}" sandbox="allow-scripts allow-downloads" allowfullscreen '
+                f'srcdoc=\'{_quoted(self.page)}\' '
                 'style="position:absolute;width:100%;height:100%;border:0;background:Canvas"></iframe></div>')
 
     def _still(self) -> str:
@@ -118,6 +121,11 @@ class View(Page):
 
     def __repr__(self) -> str:
         return f"<film of {self._scene['name']}: {self._scene['samples']} samples, {len(self.page) / 1000:.0f} kB>"
+
+
+def player() -> str:
+    """Script of all films."""
+    return text("graph.js") + text("picture.js") + text("player.js")
 
 
 def of_solution(solution: Solution, text: str) -> str:
@@ -165,8 +173,8 @@ def view(*solutions: Solution | Mechanism, forces: bool | Sequence[Any] = False,
     labels : sequence of str, optional
         Names of the solutions.
     live : bool
-        True: instead of solutions a mechanism is given, which the page simulates itself, by the core in WebAssembly; forces,
-        path, graphs, and labels are then left out. Points are dragged by a spring from the pointer, in space parallel to the
+        True: instead of solutions a mechanism is given, which the page simulates itself, by the core in WebAssembly; graphs are
+        then of measures, and labels are left out. Points are dragged by a spring from the pointer, in space parallel to the
         screen, and sliders change parameters and motors; what cannot close is refused with a sentence. The core is compiled
         once, by the package ziglang (the extra ``web``).
     sliders : dict of (float, float), optional
@@ -200,8 +208,8 @@ def view(*solutions: Solution | Mechanism, forces: bool | Sequence[Any] = False,
 
         if len(solutions) != 1:
             raise WrongType(f"a live view must be of one mechanism, not of {len(solutions)} arguments", "conflicting-arguments")
-        _refuse_given({"forces": forces, "path": path, "graphs": graphs, "labels": labels}, "must be left out with live=True")
-        return live_view(solutions[0], sliders, speed=speed, names=names)
+        _refuse_given({"labels": labels}, "must be left out with live=True")
+        return live_view(solutions[0], sliders, speed=speed, wanted=Wanted(forces, path, graphs, names))
     _refuse_given({"sliders": sliders}, "must be left out without live=True; zd.explore has sliders of finished runs")
     if not solutions:
         raise WrongType("view needs at least one solution, as zd.simulate returns", "missing-argument")

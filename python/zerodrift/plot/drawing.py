@@ -262,14 +262,21 @@ def is_upside_down(system: Any) -> bool:
     return float(getattr(system, "parameters", {}).get("gravity.z", 0.0)) > 0
 
 
-def paths_of(sol: Any, points: Any) -> list[np.ndarray]:
-    """Positions (k, 2) or (k, 3) in m of points at all samples of a solution or a trace."""
-    several = points if isinstance(points, list | tuple) else [points]
+def names_of_points(points: Any) -> list[str]:
+    """Names of points, or of a single one, that are given as objects or by name."""
     found = []
-    for point in several:
+    for point in points if isinstance(points, list | tuple) else [points]:
         name = point if isinstance(point, str) else getattr(point, "measured_name", None) or getattr(point, "name", None)
         if not isinstance(name, str):
             raise WrongType(f"each of path must be a point or its name, such as 'F' or rod.end, not {checks.shown(point)}")
+        found.append(name)
+    return found
+
+
+def paths_of(sol: Any, points: Any) -> list[np.ndarray]:
+    """Positions (k, 2) or (k, 3) in m of points at all samples of a solution or a trace."""
+    found = []
+    for name in names_of_points(points):
         places = np.asarray(sol[name if name.endswith(".position") else f"{name}.position"])
         if places.ndim != 2:
             raise WrongValue(f"path {name!r} must be of a point, not of the scalar {name}.position", "wrong-measure")
