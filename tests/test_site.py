@@ -107,7 +107,7 @@ def test_the_leg_of_the_first_page_walks_and_is_dragged(site, tmp_path):
     pytest.importorskip("ziglang")
     with Browser(tmp_path / "profile") as browser:
         browser.open((site / "live" / "leg.html").as_uri(), width=600, height=430, still=False)
-        browser.until("globalThis.zerodrift && zerodrift.time(zerodrift.live.mechanism) > 0.1")
+        browser.until("globalThis.zerodrift?.live.mechanism && zerodrift.time(zerodrift.live.mechanism) > 0.1")
         part = "zerodrift.parts.find(each => each.name === 'foot').point"
         x, y = browser.evaluate(f"zerodrift.spot({part}).slice(0, 2)")
         browser("Input.dispatchMouseEvent", type="mousePressed", x=x, y=y, button="left", clickCount=1, buttons=1)
