@@ -75,6 +75,7 @@ MECHANISMS = {name: functools.partial(live.drawn().__getitem__, name) for name i
 MECHANISMS |= {"quick return": quick_return, "portal": portal}
 
 
+
 def in_node(script, folder):
     """Objects that a script prints, with all functions of the board."""
     for path in BOARD.glob("*.js"):
@@ -196,7 +197,7 @@ HOSTILE = {
 
 @needs_node
 def test_hostile_files_and_addresses_are_refused_with_a_sentence(tmp_path):
-    (tmp_path / "m.json").write_text(saved(MECHANISMS["crank and rocker"]()))
+    (tmp_path / "m.json").write_text(saved(MECHANISMS["four-bar"]()))
     cases = json.dumps(list(HOSTILE))
     told = in_node(f"""const text = readFileSync("m.json", "utf8");
         for (const change of {cases}) {{
@@ -272,7 +273,7 @@ def count(browser):
 @needs_chromium
 def test_a_four_bar_is_drawn_by_a_mouse_and_its_address_opens_it_in_another_browser(browser, server, tmp_path):
     opened(browser, server, width=1280, height=800)
-    browser.evaluate("Object.assign(zerodrift.painter.view, {x: -2, y: 2.5, scale: 160})")
+    browser.evaluate("zerodrift.painter.show([-1.5, -0.5], [2.5, 1.8])")
     for ends in (((0, 0), (0, 0.5)), ((0, 0.5), (1.5, 1)), ((1.5, 1), (1, 0))):
         draw(browser, "link", *ends)
     draw(browser, "pin", (0, 0), (1, 0))
@@ -349,7 +350,7 @@ def test_it_is_drawn_by_keys_alone(browser, server):
 def test_it_is_drawn_by_a_finger_on_a_telephone(browser, server):
     opened(browser, server, width=400, height=800)
     browser("Emulation.setTouchEmulationEnabled", enabled=True)
-    browser.evaluate("Object.assign(zerodrift.painter.view, {x: -0.5, y: 2, scale: 160})")
+    browser.evaluate("zerodrift.painter.show([-0.3, -0.3], [1.6, 1.8])")
 
     def finger(kind, *place):
         points = [dict(zip("xy", on_screen(browser, *place), strict=True))] if place else []
@@ -369,7 +370,7 @@ def test_it_is_drawn_by_a_finger_on_a_telephone(browser, server):
 
 @needs_chromium
 def test_a_typed_length_is_kept_and_one_that_cannot_close_is_refused(browser, server):
-    opened(browser, f"{server}#{address(MECHANISMS['crank and rocker']())}")
+    opened(browser, f"{server}#{address(MECHANISMS['four-bar']())}")
 
     def type_length(value):
         browser.evaluate(f"""(() => {{
@@ -406,6 +407,107 @@ def test_a_hostile_address_says_so_and_nothing_else_happens(browser, server):
 @needs_chromium
 @pytest.mark.parametrize(("width", "dark"), [(1280, False), (400, True)])
 def test_it_can_be_read_by_everybody(browser, server, width, dark):
-    opened(browser, f"{server}#{address(MECHANISMS['slider and crank']())}", width=width, height=800, dark=dark)
+    opened(browser, f"{server}#{address(MECHANISMS['slider-crank']())}", width=width, height=800, dark=dark)
     assert browser.evaluate((ROOT / "tests" / "support" / "page_checks.js").read_text(encoding="utf-8")) == []
+    assert browser.errors == []
+
+
+def click_on(browser, name):
+    browser.evaluate(f"document.getElementById('{name}').click()")
+
+
+def motion(browser):
+    return browser.evaluate("document.getElementById('count').textContent.split('\\n')")
+
+
+@needs_chromium
+def test_a_points_path_and_all_measures_over_a_turn_are_those_of_python(browser, server):
+    m = MECHANISMS["four-bar"]()
+    opened(browser, f"{server}#{address(m)}")
+    browser.until("zerodrift.board.turn !== null")
+    assert motion(browser)[0] == "moves: yes, 1 freedom, driven by drive"
+    head, *rows = browser.evaluate("zerodrift.table()").splitlines()
+    names, values = head.replace('"', "").split(","), np.array([[float(each) for each in row.split(",")] for row in rows])
+    t = values[:, 0]
+    sol = zd.simulate(m, t[-1], step=t[1] / 6)
+    for name in ("P.position.x", "P.position.y", "A.force.x", "C.force.y", "drive.torque", "rocker.angle"):
+        column = next(i for i, each in enumerate(names) if each.startswith(f"{name} ["))
+        np.testing.assert_allclose(values[:, column], np.interp(t, sol.t, sol[name]), rtol=1e-4, atol=1e-3)
+    assert t[-1] == pytest.approx(2 * np.pi / 3)
+    assert browser.evaluate("zerodrift.film.layers[0].paths[0].length") == len(t)
+    assert browser.errors == []
+
+
+@needs_chromium
+def test_a_crank_that_locks_says_so_in_words_of_mechanisms(browser, server):
+    m = zd.Mechanism("locked", gravity=(0, -9.81))
+    for name, start, end in (("crank", (0, 0), (0, 0.8)), ("coupler", (0, 0.8), (0.9, 0.9)), ("rocker", (0.9, 0.9), (1.4, 0))):
+        m.link(name, start, end, mass=1.0)
+    m.revolute("A", m.ground.point((0, 0)), "crank.start")
+    m.revolute("B", "crank.end", "coupler.start")
+    m.revolute("C", "coupler.end", "rocker.start")
+    m.revolute("D", m.ground.point((1.4, 0)), "rocker.end")
+    m.motor("drive", "A", speed=2.0)
+    opened(browser, f"{server}#{address(m)}")
+    browser.press("p")
+    browser.until("document.getElementById('told').textContent !== ''")
+    assert "drive can turn crank no further than " in told(browser)
+    assert "coupler and rocker lie in one line there" in told(browser)
+    assert browser.evaluate("zerodrift.board.stretched") == ["coupler", "rocker"]
+    with pytest.raises(zd.ZerodriftError):
+        zd.simulate(m, 4.0, step=1e-3)
+    assert browser.errors == []
+
+
+@needs_chromium
+def test_what_is_undone_is_done_again_and_an_empty_field_is_an_error(browser, server):
+    m = MECHANISMS["double pendulum"]()
+    opened(browser, f"{server}#{address(m)}")
+    assert motion(browser)[0] == "moves: yes, 2 freedoms"
+    draw(browser, "point", (0.4, 0.05), (0.5, 0.5))
+    assert [each["kind"] for each in model(browser)["elements"]][-1] == "point"
+    click_on(browser, "undo")
+    assert len(model(browser)["elements"]) == 4
+    click_on(browser, "redo")
+    point = model(browser)["elements"][-1]
+    assert point["local"] == pytest.approx([0.558, 0.434], abs=0.02)
+    browser.evaluate("""(() => { const parts = document.getElementById("parts");
+        parts.value = "P1"; parts.dispatchEvent(new Event("change"));
+        const field = document.querySelectorAll("#values input")[1];
+        field.value = " "; field.dispatchEvent(new Event("change")); })()""")
+    assert told(browser) == "along the link, m cannot be empty: A number is needed"
+    assert model(browser)["elements"][-1] == point
+    draw(browser, "link", (0.0, 0.4), (0.2, 0.6))
+    assert "nothing joins link1 to the ground" in motion(browser)
+    assert browser.errors == []
+
+
+@needs_chromium
+@pytest.mark.parametrize(("speed", "way"), [(2.0, 1), (-2.0, -1)])
+def test_the_arrow_of_a_motor_turns_as_its_speed(browser, server, speed, way):
+    m = zd.Mechanism("crank", gravity=(0, 0))
+    m.link("crank", (0, 0), (1, 0), mass=1.0)
+    m.motor("drive", m.revolute("A", m.ground.point((0, 0)), "crank.start"), speed=speed)
+    opened(browser, f"{server}#{address(m)}")
+    turn = browser.evaluate("""new Promise(done => {
+        const brush = CanvasRenderingContext2D.prototype, line = brush.lineTo, way = [];
+        brush.lineTo = function (x, y) { way.push([x, y]); return line.call(this, x, y); };
+        requestAnimationFrame(() => requestAnimationFrame(() => {
+          brush.lineTo = line;
+          const [a, b] = zerodrift.painter.toScreen([0, 0]), scale = zerodrift.painter.toScreen([1, 0])[0] - a;
+          const arms = way.map(([x, y]) => [x - a, b - y]);
+          const onArc = ([x, y]) => Math.abs(Math.hypot(x, y) - 3.1 * zerodrift.film.pin * scale) < 0.5;
+          const arc = arms.filter(onArc).slice(0, 10);
+          done(arc.slice(1).reduce((sum, [x, y], i) => sum + Math.sign(arc[i][0] * y - arc[i][1] * x), 0)); })); })""")
+    assert np.sign(turn) == way
+    assert browser.errors == []
+
+
+@needs_chromium
+def test_an_example_is_opened_on_an_empty_board(browser, server):
+    opened(browser, server)
+    browser.evaluate("""[...document.querySelectorAll('#examples button')]
+        .find(each => each.textContent === 'Watt linkage').click()""")
+    assert motion(browser)[0] == "moves: yes, 1 freedom"
+    assert browser.evaluate("document.getElementById('examples').hidden")
     assert browser.errors == []

@@ -8,7 +8,7 @@ const SECTIONS = ["gravity", "bodies", "joints", "quantities", "terms", "relatio
 const VERSION = 4;
 // Numbers of kinds in the tables of the core.
 const JOINT = {revolute: 0, prismatic: 1, weld: 2, slot: 4};
-const QUANTITY = {angle: 2, along: 3, distance: 5};
+const QUANTITY = {angle: 2, along: 3, distance: 5, ground: 6};
 const FORCE = {spring: 0, constant: 1};
 const MEASURE = {"joint force": 3, "joint torque": 4, "force value": 6, "force power": 7, "drive": 8, "drive power": 9};
 const METHODS = [[1, "schur", []], [2, "rk4", []], [3, "projection", [1e-12, 10, 1, 0, 1, 1]]], METHOD_VALUES = 16;
@@ -83,6 +83,13 @@ function springRows(tables, spring) {
   tables.observed.push([`${spring.name}.force`, "N", "force value", tables.forces.length - 1, 1, -1]);
 }
 
+function loadRows(tables, load) {
+  const [second, point] = tables.place(load.point);
+  tables.quantities.push([QUANTITY.ground, 0, second, 0, 0, ...point, ...load.along, 0]);
+  forceRow(tables, {kind: "constant", quantity: tables.quantities.length - 1, value: load.value});
+  tables.observed.push([`${load.name}.force`, "N", "force value", tables.forces.length - 1, 1, 1]);
+}
+
 // Elements kind by kind, in the order of the package; inputs of forces are numbered after the terms of all relations.
 function filledTables(model) {
   const tables = tablesOf(model);
@@ -91,6 +98,7 @@ function filledTables(model) {
   });
   ofKind(model, "motor").forEach((motor) => motorRows(tables, motor));
   ofKind(model, "spring").forEach((spring) => springRows(tables, spring));
+  ofKind(model, "force").forEach((load) => loadRows(tables, load));
   tables.forces.forEach((force) => { force[6] = tables.terms.length; });
   const reactions = tables.joints.flatMap((joint, i) => [[`${joint.name}.force`, "N", "joint force", i, 2, 1],
     ...(joint.kind === "slot" ? [] : [[`${joint.name}.torque`, "N m", "joint torque", i, 1, 1]])]);

@@ -1,11 +1,11 @@
 // The drawing board: tools, hands and keys, the panel of the chosen part, and the mechanism in motion.
-// The core counts and simulates; the mechanism is in the address of the page.
+// The core counts and simulates; the mechanism is in the address of the page. Pictures and graphs are those of the player.
 
 import {close, create, freedoms, load, positions, pull, read, step, time, unit, violation} from "../core.js";
 import {addressOf, angleOf, bodyOf, checkedModel, drawnPlace, elementNamed, emptyModel, isJoint, lengthOf, modelOfAddress, ofKind, parsedModel} from "./model.js";
 import {blockOf} from "./block.js";
-import {addLink, addMotor, addPin, addSlot, addSpring, copyOf, moveTo, partsAt, remove, takePoses, targetAt} from "./edit.js";
-import {fitView, gridOf, paint, painterOf, placesOf, readTones} from "./picture.js";
+import {addBlock, addLink, addLoad, addMotor, addPin, addPoint, addSlot, addSpring, copyOf, moveTo, partsAt, remove, takePoses, targetAt} from "./edit.js";
+import {looseOf, movesOf, placesOf, shapesOf, sidesOf, stretchedOf} from "./scene.js";
 import {fieldsOf} from "./fields.js";
 import {pythonOf} from "./python.js";
 
@@ -14,16 +14,56 @@ const TOOLS = {
   link: ["Link", "l", "Press where it begins and where it ends. On another link it is pinned there."],
   pin: ["Pin to ground", "g", "Press an end or a point of a link."],
   slot: ["Slot", "o", "Press an end of a link: it then slides along a line of the ground, whose angle can be typed."],
+  block: ["Block", "b", "Press a place, or an end of a link: a block with mass slides along a line of the ground."],
+  point: ["Point", "t", "Press a link, then where the point is: beside the link it makes a plate of it. Its path over a turn is drawn."],
+  load: ["Load", "f", "Press an end or a point of a link: a force acts there, whose components can be typed."],
   motor: ["Motor", "m", "Press a pin or a slot."],
   spring: ["Spring", "s", "Press its two ends, on links or on the ground."],
   remove: ["Remove", "x", "Press what is to go."],
 };
-const BUDGET = 8, REACH = 16, TOUCH = 26, STEP = 1e-3, MAX_UNDO = 100;       // ms of computation in a picture; points of the screen; s
+const BUDGET = 8, PIN = 6.5, REACH = 16, TOUCH = 26, STEP = 1e-3, MAX_UNDO = 100;       // ms of computation in a picture; points of the screen; s
+const EXAMPLES = /*examples*/[];
 const byId = (id) => document.getElementById(id);
-const canvas = byId("board"), painter = painterOf(canvas);
+const canvas = byId("board"), layer = {shapes: [], at: [], fixed: [], paths: [], arrows: [], loads: []};
+const film = {name: "board", dimension: 2, low: [-1, -0.5], high: [1, 0.5], follow: 0, pin: 0.03, arrow: 1, names: true, layers: [layer]};
+const picture = pictureOf(film, canvas, () => {});
 const board = {model: emptyModel(), core: null, mechanism: null, tool: "link", chosen: null, pending: null, cursor: null, held: null, isPlaying: false,
-               moved: false, history: [], reach: REACH, pictures: 0, cost: 0};
-globalThis.zerodrift = {board, painter, addressOf, blockOf, positions, pythonOf, read, time, violation, freedoms};
+               moved: false, history: [], future: [], reach: REACH, pictures: 0, cost: 0, turn: null, stretched: []};
+const painter = {toScreen: (at) => picture.project(at).slice(0, 2), toDrawing: (at) => picture.unproject(at, 0), show};
+globalThis.zerodrift = {board, painter, film, addressOf, blockOf, positions, pythonOf, read, time, violation, freedoms, table};
+
+// ---- view ----
+
+// Shows all between two corners.
+function show(low, high) {
+  Object.assign(film, {low, high});
+  Object.assign(picture.view, {zoom: 1, shift: [0, 0]});
+  picture.frame();
+  picture.begin();
+}
+
+// The view shows all of a drawing, with room around it.
+function fitView() {
+  const places = board.model.elements.flatMap(sidesOf).map((side) => drawnPlace(board.model, side))
+    .concat(ofKind(board.model, "link").flatMap(({start, end}) => [start, end]));
+  const [low, high] = places.length ? [Math.min, Math.max].map((limit) => [0, 1].map((k) => limit(...places.map((at) => at[k])))) : [[-1, -0.5], [1, 1]];
+  const room = 0.35 * Math.max(high[0] - low[0], high[1] - low[1], 0.1);
+  show(low.map((x) => x - room), high.map((x) => x + room));
+}
+
+const reachOf = () => board.reach / picture.scale;
+
+// 1, 2 or 5 times a power of ten metres, at least 14 points on the screen.
+function gridOf() {
+  const least = 14 / picture.scale, power = 10 ** Math.floor(Math.log10(least));
+  return power * [1, 2, 5, 10].find((each) => each * power >= least * 0.999);
+}
+
+film.under = (line, tones) => {
+  const step = 5 * gridOf(), {width, height} = canvas.getBoundingClientRect(), [[left, top], [right, low]] = [[0, 0], [width, height]].map(painter.toDrawing);
+  for (let i = Math.ceil(left / step); i * step < right; i++) line([[i * step, low], [i * step, top]], tones.body, i ? 0.6 : 1.4);
+  for (let i = Math.ceil(low / step); i * step < top; i++) line([[left, i * step], [right, i * step]], tones.body, i ? 0.6 : 1.4);
+};
 
 function tell(sentence) {
   byId("told").textContent = sentence;
@@ -36,6 +76,7 @@ function assemble() {
   if (board.mechanism) close(board.mechanism);
   board.mechanism = null;
   board.moved = board.isPlaying = false;
+  board.stretched = [];
   if (!ofKind(board.model, "link").length) return;
   board.mechanism = create(board.core, blockOf(board.model, STEP), 0, true);
 }
@@ -47,7 +88,8 @@ function tryToAssemble() {
   } catch (error) {
     tell(sentenceOf(error));
   }
-  show();
+  board.turn = null;
+  refresh();
 }
 
 const sentenceOf = (error) => error.message.replace(/\s*\[zd:[\w-]+\]$/, "").replace(/^./, (letter) => letter.toUpperCase());
@@ -74,18 +116,22 @@ function change(edit, {mustClose = false} = {}) {
 }
 
 function remember(before) {
+  board.future = [];
   board.history.push(before);
   if (board.history.length > MAX_UNDO) board.history.shift();
   history.replaceState(null, "", addressOf(board.model));
 }
 
-function undo() {
-  const before = board.history.pop();
-  if (!before) return tell("There is nothing to undo");
-  board.model = JSON.parse(before);
+function undo(from = board.history, to = board.future, word = "undo") {
+  const other = from.pop();
+  if (!other) return tell(`There is nothing to ${word}`);
+  to.push(JSON.stringify(board.model));
+  board.model = JSON.parse(other);
   history.replaceState(null, "", addressOf(board.model));
   return tryToAssemble();
 }
+
+const redo = () => undo(board.future, board.history, "redo");
 
 function open(read, what) {
   try {
@@ -93,8 +139,8 @@ function open(read, what) {
   } catch (error) {
     return tell(`${what} is refused: ${error.message}`);
   }
-  Object.assign(board, {history: [], chosen: null, pending: null});
-  fitView(canvas, painter, board.model);
+  Object.assign(board, {history: [], future: [], chosen: null, pending: null, tool: "move"});
+  fitView();
   return tryToAssemble();
 }
 
@@ -103,12 +149,12 @@ function open(read, what) {
 const digits = (value) => (Math.abs(value) < 1e-9 ? "0" : Math.abs(value) >= 1e5 || Math.abs(value) < 1e-3 ? value.toExponential(2) : value.toPrecision(4));
 
 function showCount() {
-  const m = board.mechanism;
-  if (!m) return (byId("count").textContent = ofKind(board.model, "link").length ? "The drawing does not move as it is." : "Draw a link to begin.");
+  const m = board.mechanism, loose = looseOf(board.model), nothing = `nothing joins ${loose.join(", ")} to the ground`;
+  if (!m) return (byId("count").textContent = ofKind(board.model, "link").length ? "moves: no, the drawing does not close" : "Draw a link to begin, or open one of these:");
   const {freedoms: count, rank, redundant} = freedoms(m);
-  const extra = redundant.length ? `\nredundant: ${redundant.join(", ")}` : "";
-  return (byId("count").textContent = `degrees of freedom ${count}\nrank of the constraints ${rank} of ${m.constraints.length}${extra}
-t = ${time(m).toFixed(2)} s, position violation ${violation(m).toExponential(1)} m`);
+  const lines = [movesOf(board.model, count), ...(loose.length ? [nothing] : []), ...(redundant.length ? [`redundant: ${redundant.join(", ")}`] : []),
+                 `t = ${time(m).toFixed(2)} s, position violation ${violation(m).toExponential(1)} m; rank of the constraints ${rank} of ${m.constraints.length}`];
+  return (byId("count").textContent = lines.join("\n"));
 }
 
 function showReactions() {
@@ -137,23 +183,26 @@ function fieldElement({label, value, choices, set, mustClose}) {
   if (choices) field.append(...choices.map((each) => new Option(each, each, false, each === value)));
   else Object.assign(field, {value, type: "text", inputMode: typeof value === "number" ? "decimal" : "text"});
   field.addEventListener("change", () => {
-    const typed = field.value.slice(0, 40), given = typeof value === "number" ? Number(typed.replace(",", ".")) : typed;
+    const typed = field.value.slice(0, 40), given = typeof value === "number" ? (typed.trim() ? Number(typed.replace(",", ".")) : NaN) : typed;
     const renamed = label === "name" ? given : board.chosen, before = board.chosen;
     board.chosen = renamed;
     if (change((model) => set(model, given), {mustClose})) return;
     board.chosen = before;
     const told = byId("told").textContent;
     showParts();
-    tell(`${label} cannot be ${typed}: ${told}`);
+    tell(`${label} cannot be ${typed.trim() || "empty"}: ${told}`);
   });
   row.append(label, field);
   return row;
 }
 
-function show() {
+function refresh() {
   showParts();
   showCount();
   showReactions();
+  byId("examples").hidden = board.model.elements.length > 0;
+  byId("redo").disabled = !board.future.length;
+  byId("undo").disabled = !board.history.length;
   byId("python").textContent = pythonOf(board.model);
   byId("play").textContent = board.isPlaying ? "Pause" : "Play";
   byId("reset").disabled = !board.moved;
@@ -165,22 +214,33 @@ function show() {
 
 const pressed = {
   move(target, at) {
-    const names = partsAt(board.model, at, board.reach / painter.view.scale);
+    const names = partsAt(board.model, at, reachOf());
     board.chosen = names[(names.indexOf(board.chosen) + 1) % Math.max(names.length, 1)] ?? null;
-    show();
+    refresh();
   },
   link: (target) => between(target, (model, from, to) => { board.chosen = addLink(model, from, to).name; }),
   spring: (target) => between(target, (model, from, to) => { board.chosen = addSpring(model, from, to).name; }),
   pin: (target) => onLink(target, (model, side, at) => addPin(model, null, side, at)),
   slot: (target) => onLink(target, addSlot),
+  load: (target) => (target.side && bodyOf(target.side) !== "ground" ? change((model) => { board.chosen = addLoad(model, copyOf(target).side).name; })
+    : tell("Press an end or a point of a link")),
+  block: (target) => change((model) => { board.chosen = addBlock(model, copyOf(target), 2 * gridOf()).name; }),
+  point(target, at) {
+    const from = board.pending;
+    if (!from && (!target.side || bodyOf(target.side) === "ground")) return tell("Press a link first");
+    if (!from) { board.pending = copyOf(target); return null; }
+    board.pending = null;
+    const place = Math.hypot(at[0] - from.at[0], at[1] - from.at[1]) < reachOf() ? from.at : target.side ? target.at : at;
+    return change((model) => { board.chosen = addPoint(model, bodyOf(from.side), place).name; });
+  },
   motor(target, at) {
-    const joint = partsAt(board.model, at, board.reach / painter.view.scale).map((name) => elementNamed(board.model, name))
+    const joint = partsAt(board.model, at, reachOf()).map((name) => elementNamed(board.model, name))
       .filter((element) => isJoint(element) && element.kind !== "weld").sort((a, b) => (bodyOf(b.first) === "ground") - (bodyOf(a.first) === "ground"))[0];
     if (!joint) return tell("A motor must be at a pin, a slot or a slider");
     return change((model) => { board.chosen = addMotor(model, joint).name; });
   },
   remove(target, at) {
-    const name = partsAt(board.model, at, board.reach / painter.view.scale)[0];
+    const name = partsAt(board.model, at, reachOf())[0];
     return name ? change((model) => remove(model, name)) : tell("There is nothing to remove here");
   },
 };
@@ -191,7 +251,7 @@ function between(target, make) {
     board.pending = copyOf(target);
     return null;
   }
-  if (Math.hypot(target.at[0] - from.at[0], target.at[1] - from.at[1]) < 2 / painter.view.scale) return null;
+  if (Math.hypot(target.at[0] - from.at[0], target.at[1] - from.at[1]) < 2 / picture.scale) return null;
   board.pending = null;
   if (from.side && target.side && bodyOf(from.side) === bodyOf(target.side)) return tell("Its two ends must be on different bodies");
   return change((model) => make(model, from, copyOf(target)));
@@ -204,7 +264,7 @@ function onLink(target, make) {
   return change((model) => { board.chosen = make(model, copyOf(target).side, target.at).name; });
 }
 
-const targetOf = (at) => targetAt(board.model, at, board.reach / painter.view.scale, gridOf(painter));
+const targetOf = (at) => targetAt(board.model, at, reachOf(), gridOf());
 
 function press(at) {
   if (board.moved) return tell("Go back to the drawing to change it");
@@ -215,13 +275,14 @@ function press(at) {
 
 // ---- pointers ----
 
-const placeOf = (event) => { const box = canvas.getBoundingClientRect(); return painter.toDrawing([event.clientX - box.left, event.clientY - box.top]); };
+const onScreen = (event) => { const box = canvas.getBoundingClientRect(); return [event.clientX - box.left, event.clientY - box.top]; };
+const placeOf = (event) => painter.toDrawing(onScreen(event));
 
 function grip(at) {
   const sides = ofKind(board.model, "link").flatMap(({name}) => [`${name}.start`, `${name}.end`]), placed = placesOf(board.model, board.moved ? positions(board.mechanism) : null);
   const far = (side) => { const [x, y] = placed(side); return Math.hypot(x - at[0], y - at[1]); };
   const side = sides.sort((a, b) => far(a) - far(b))[0];
-  return side && far(side) < board.reach / painter.view.scale ? side : null;
+  return side && far(side) < reachOf() ? side : null;
 }
 
 function down(event) {
@@ -237,7 +298,7 @@ function move(event) {
   const at = placeOf(event), {held} = board;
   board.cursor = at;
   if (!held) return;
-  if (Math.hypot(at[0] - held.from[0], at[1] - held.from[1]) * painter.view.scale > 5) held.isDragged = true;
+  if (Math.hypot(at[0] - held.from[0], at[1] - held.from[1]) * picture.scale > 5) held.isDragged = true;
   if (!held.isDragged) return;
   if (held.side && board.moved) held.target = at;
   else if (held.side) drag(held.side, at);
@@ -245,14 +306,13 @@ function move(event) {
 }
 
 function panBy(held, event) {
-  painter.view.x -= (event.clientX - held.pan[0]) / painter.view.scale;
-  painter.view.y += (event.clientY - held.pan[1]) / painter.view.scale;
+  picture.view.shift = picture.view.shift.map((each, k) => each + [event.clientX, event.clientY][k] - held.pan[k]);
   held.pan = [event.clientX, event.clientY];
 }
 
 // The end snaps to the grid; the mechanism follows in the same picture.
 function drag(side, at) {
-  const grid = gridOf(painter), before = JSON.stringify(board.model);
+  const grid = gridOf(), before = JSON.stringify(board.model);
   try {
     moveTo(board.model, side, at.map((each) => +(Math.round(each / grid) * grid).toFixed(6)));
     board.model = checkedModel(board.model);
@@ -271,15 +331,18 @@ function up(event) {
   else if (held.isDragged && board.pending && !board.moved) press(placeOf(event));
 }
 
-function zoomBy(factor, [x, y] = painter.toDrawing([canvas.clientWidth / 2, canvas.clientHeight / 2])) {
-  const {view} = painter, scale = Math.min(Math.max(view.scale * factor, 1), 20000), ratio = view.scale / scale;
-  Object.assign(view, {x: x + (view.x - x) * ratio, y: y + (view.y - y) * ratio, scale});
+// What is at a place of the screen stays there.
+function zoomBy(factor, screen = [canvas.clientWidth / 2, canvas.clientHeight / 2]) {
+  const {view} = picture, wanted = Math.min(Math.max(factor, 1 / picture.scale), 20000 / picture.scale), middle = [canvas.clientWidth / 2, canvas.clientHeight / 2];
+  view.shift = view.shift.map((each, k) => screen[k] - middle[k] + (each - screen[k] + middle[k]) * wanted);
+  view.zoom *= wanted;
+  picture.begin();
 }
 
 // ---- keys ----
 
 function moveCursor(key, event) {
-  const grid = gridOf(painter) * (event.shiftKey ? 5 : 1), [dx, dy] = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[key];
+  const grid = gridOf() * (event.shiftKey ? 5 : 1), [dx, dy] = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[key];
   const at = board.cursor ?? painter.toDrawing([canvas.clientWidth / 2, canvas.clientHeight / 2]);
   board.cursor = [at[0] + dx * grid, at[1] + dy * grid].map((each) => Math.round(each / grid) * grid);
   if (event.altKey && board.tool === "move" && !board.moved) carry(at);
@@ -296,7 +359,7 @@ function carry(from) {
 
 function onKey(event) {
   const {key} = event, isTyping = event.target.matches("input, select, textarea");
-  if (event.ctrlKey && key === "z" && !isTyping) { undo(); return event.preventDefault(); }
+  if (event.ctrlKey && ["z", "y", "Z"].includes(key) && !isTyping) { if (key === "z") undo(); else redo(); return event.preventDefault(); }
   if (isTyping || event.ctrlKey || event.metaKey) return null;
   const tool = Object.keys(TOOLS).find((name) => TOOLS[name][1] === key);
   if (tool) chooseTool(tool);
@@ -314,7 +377,7 @@ function chooseTool(tool) {
   board.tool = tool;
   board.pending = null;
   tell("");
-  show();
+  refresh();
 }
 
 // ---- time ----
@@ -325,7 +388,7 @@ function toggle() {
   board.moved ||= board.isPlaying;
   board.pending = null;
   tell("");
-  return show();
+  return refresh();
 }
 
 function advanceBy(seconds, begin) {
@@ -344,33 +407,146 @@ function pullEnd(m, index, end, target) {
   return pull(m, () => placesOf(board.model, positions(m))(side), target);
 }
 
-function picture(now) {
+// A crank that goes no further: the place, and the links that lie in one line there.
+function lockedAt(error) {
+  const m = board.mechanism, [motor] = ofKind(board.model, "motor").filter((each) => each.drives === "speed"), p = m && positions(m);
+  const lines = m ? stretchedOf(board.model, p) : [], turned = motor && elementNamed(board.model, motor.joint);
+  if (!motor || !lines.length || turned.axis) return sentenceOf(error);
+  board.stretched = [...new Set(lines.flat())];
+  const crank = ofKind(board.model, "link").findIndex((link) => link.name === bodyOf(turned.second));
+  return `${motor.name} can turn ${bodyOf(turned.second)} no further than ${Math.round(p[3 * crank + 2] * 180 / Math.PI)}°: ${lines.map((pair) => pair.join(" and ")).join(", ")} lie in one line there. `
+    + "With a shorter crank it may turn fully.";
+}
+
+// ---- over a turn: paths of points, and graphs of the chosen part ----
+
+const SAMPLES = 360, FREE = 2;      // of a turn; s, where no motor has a speed
+const NOTHING = {to: FREE, lines: [], paths: [], told: ""}, turnOf = () => board.turn ?? NOTHING, linesOf = (name) => turnOf().lines.filter((line) => line.of === name);
+
+// One turn of the first motor with a speed, otherwise two seconds, by a mechanism of its own: as far as it gets.
+function recordTurn() {
+  const motor = ofKind(board.model, "motor").find((each) => each.drives === "speed" && each.law), turn = {to: FREE, lines: [], paths: [], told: ""};
+  board.turn = turn;
+  if (!board.mechanism) return;
+  if (motor && !elementNamed(board.model, motor.joint).axis) turn.to = 2 * Math.PI / Math.abs(motor.law);
+  const count = Math.max(1, Math.ceil(turn.to / SAMPLES / STEP)), step1 = turn.to / SAMPLES / count;
+  let m = null;
+  const points = ofKind(board.model, "point"), add = (of, name, unitOf, measured) => turn.lines.push({of, name, unit: unitOf, measured, values: []});
+  try {
+    m = create(board.core, blockOf(board.model, step1), 0, true);
+    const at = (point) => placesOf(board.model, positions(m))(point);
+    for (const point of points) ["x", "y"].forEach((axis, k) => add(point.name, `${point.name}.position.${axis}`, "m", () => at(point)[k]));
+    for (const name of m.measures) {
+      const size = read(m, name).length, of = name.replace(/\.[^.]*$/, "");
+      for (let k = 0; k < size; k++) add(of, size > 1 ? `${name}.${"xy"[k]}` : name, unit(m, name), () => read(m, name)[k]);
+    }
+    ofKind(board.model, "link").forEach(({name}, i) => add(name, `${name}.angle`, "rad", () => positions(m)[3 * i + 2]));
+    turn.paths = points.map(() => []);
+    for (let i = 0; i <= SAMPLES; i++) {
+      for (const line of turn.lines) line.values.push(line.measured());
+      points.forEach((point, k) => turn.paths[k].push(at(point)));
+      if (i < SAMPLES) step(m, count);
+    }
+  } catch {
+    turn.told = "The graph ends where the motion does.";
+    for (const line of turn.lines) while (line.values.length <= SAMPLES) line.values.push(NaN);
+  } finally {
+    if (m) close(m);
+  }
+  for (const line of turn.lines.filter((each) => each.name.endsWith(".y"))) addSize(turn, line);
+}
+
+// Speed of a point from its positions, size of a force from its components.
+function addSize(turn, y) {
+  const x = turn.lines.find((each) => each.name === y.name.replace(/y$/, "x")), dt = turn.to / SAMPLES, slope = ({values}, i) => {
+    const [a, b] = [Math.max(i - 1, 0), Math.min(i + 1, SAMPLES)];
+    return (values[b] - values[a]) / (b - a) / dt;
+  };
+  const isPlace = y.unit === "m", values = y.values.map((each, i) => (isPlace ? Math.hypot(slope(x, i), slope(y, i)) : Math.hypot(x.values[i], each)));
+  turn.lines.push({of: y.of, name: isPlace ? `${y.of}.speed` : y.name.replace(/\.y$/, ""), unit: isPlace ? "m/s" : y.unit, values});
+}
+
+// CSV: a line for each time, all that is known over the turn.
+function table() {
+  const {lines, to} = turnOf(), quoted = (text) => `"${text.replaceAll('"', '""')}"`;
+  const rows = Array.from({length: SAMPLES + 1}, (_, i) => [to * i / SAMPLES, ...lines.map((line) => line.values[i])].join());
+  return [["t [s]", ...lines.map((line) => `${line.name} [${line.unit}]`)].map(quoted).join(), ...rows, ""].join("\n");
+}
+
+function showTurn() {
+  const lines = linesOf(board.chosen), first = lines[0]?.unit, {to, told} = turnOf(), now = board.mechanism && board.moved ? time(board.mechanism) % to : 0;
+  byId("turn").hidden = !lines.length;
+  byId("csv").disabled = !turnOf().lines.length;
+  byId("turn-hint").textContent = lines.length ? told : `Choose a point, a pin, a motor or a link. ${told}`;
+  if (lines.length) graph(byId("turn"), picture, lines.filter((line) => line.unit === first), {from: 0, to, now});
+}
+
+// ---- pictures ----
+
+function noted(target) {
+  if (!board.cursor || board.moved) return "";
+  const [x, y] = target.at, from = board.pending?.at ?? board.held?.start, where = `${digits(x)}, ${digits(y)} m`;
+  const on = target.side ? ` on ${bodyOf(target.side)}` : "";
+  if (!from) return where + on;
+  const [dx, dy] = [x - from[0], y - from[1]];
+  return `${digits(Math.hypot(dx, dy))} m, ${(Math.atan2(dy, dx) * 180 / Math.PI).toFixed(1)}°${on}`;
+}
+
+function draw() {
+  const p = board.moved && board.mechanism ? positions(board.mechanism) : null, element = board.chosen && elementNamed(board.model, board.chosen);
+  film.pin = PIN / picture.scale;
+  film.arrow = 70 / picture.scale;
+  Object.assign(layer, shapesOf(board.model, p, film.pin), {order: null, arrows: [], paths: turnOf().paths.filter((path) => path.length > 1)});
+  if (element && board.mechanism?.measures.includes(`${board.chosen}.force`)) pushForce(element, placesOf(board.model, p));
+  picture.view.chosen = board.chosen;
+  picture.draw("");
+  for (const name of board.stretched) picture.mark(name);
+  picture.words(`${+(5 * gridOf()).toPrecision(2)} m a square`, 8, canvas.clientHeight - 8);
+  if (!board.cursor || board.moved) return;
+  const target = board.pending || board.tool !== "move" ? targetOf(board.cursor) : {at: board.cursor};
+  if (board.pending) picture.thread(board.pending.at, painter.toScreen(target.at));
+  picture.cursor(target.at, noted(target), Boolean(target.side));
+}
+
+// The force of the chosen joint, to the scale of its largest over the turn.
+function pushForce(element, placed) {
+  const most = Math.max(1e-9, ...linesOf(element.name).filter((line) => line.unit === "N").flatMap((line) => line.values.filter(Number.isFinite).map(Math.abs)));
+  let force = [];
+  try { force = [...read(board.mechanism, `${element.name}.force`)]; } catch { /* a singular pose */ }
+  if (force.length !== 2) return;
+  const scale = Math.max(most, Math.hypot(...force));
+  layer.at.push(placed(element.second), force.map((x) => x / scale));
+  layer.arrows = [{name: element.name, at: layer.at.length - 2, to: layer.at.length - 1, scale}];
+}
+
+function next(now) {
   const begin = performance.now(), elapsed = Math.min((now - (board.last ?? now)) / 1000, 0.05);
   board.last = now;
+  if (!board.turn && !board.held) recordTurn();
   if (board.moved && board.mechanism) {
     try {
-      advanceBy(elapsed, begin);
+      advanceBy(elapsed * byId("speed").value, begin);
       showCount();
       if (board.pictures % 6 === 0) showReactions();
     } catch (error) {
       board.isPlaying = false;
-      show();
-      tell(sentenceOf(error));
+      refresh();
+      tell(lockedAt(error));
     }
   }
-  paint(canvas, painter, board.model, {p: board.moved && board.mechanism ? positions(board.mechanism) : null, chosen: board.chosen, pending: board.pending,
-                                       cursor: board.cursor && board.pending ? targetOf(board.cursor).at : board.cursor, isEdited: !board.moved});
+  draw();
+  showTurn();
   board.cost = performance.now() - begin;
   board.pictures++;
-  requestAnimationFrame(picture);
+  requestAnimationFrame(next);
 }
 
 // ---- begin ----
 
-function saveFile() {
+function saveFile(ending, text) {
   const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([JSON.stringify(board.model, null, 1)], {type: "application/json"}));
-  link.download = `${board.model.name}.json`;
+  link.href = URL.createObjectURL(new Blob([text], {type: ending === "csv" ? "text/csv" : "application/json"}));
+  link.download = `${board.model.name}.${ending}`;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
@@ -397,13 +573,12 @@ function listen() {
   canvas.addEventListener("pointermove", move);
   canvas.addEventListener("pointerup", up);
   canvas.addEventListener("pointercancel", () => { board.held = null; });
-  canvas.addEventListener("wheel", (event) => { event.preventDefault(); zoomBy(Math.exp(-event.deltaY / 400), placeOf(event)); }, {passive: false});
+  canvas.addEventListener("wheel", (event) => { event.preventDefault(); zoomBy(Math.exp(-event.deltaY / 400), onScreen(event)); }, {passive: false});
   document.addEventListener("keydown", onKey);
   addEventListener("hashchange", () => open(() => modelOfAddress(location.hash), "The address"));
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => readTones(canvas));
-  for (const [id, act] of Object.entries({play: toggle, reset: tryToAssemble, undo, fit: () => fitView(canvas, painter, board.model), save: saveFile,
+  for (const [id, act] of Object.entries({play: toggle, reset: tryToAssemble, undo: () => undo(), redo, fit: fitView, save: () => saveFile("json", JSON.stringify(board.model, null, 1)), csv: () => saveFile("csv", table()),
     copy: () => copyText(pythonOf(board.model), "The Python text"), link: () => copyText(location.href, "The address")})) byId(id).addEventListener("click", act);
-  byId("parts").addEventListener("change", (event) => { board.chosen = event.target.value || null; show(); });
+  byId("parts").addEventListener("change", (event) => { board.chosen = event.target.value || null; refresh(); });
   byId("values").addEventListener("submit", (event) => event.preventDefault());
   byId("file").addEventListener("change", async ({target}) => {
     const [file] = target.files;
@@ -417,11 +592,16 @@ async function unpacked(text) {
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 }
 
-readTones(canvas);
 listen();
+for (const [name, model] of EXAMPLES) {
+  const button = document.createElement("button");
+  Object.assign(button, {type: "button", textContent: name});
+  button.addEventListener("click", () => { open(() => checkedModel(model), name); history.replaceState(null, "", addressOf(board.model)); });
+  byId("examples").append(button);
+}
 if (globalThis.zerodriftCore) board.core = await load(await unpacked(globalThis.zerodriftCore));
 else tell("The core is missing: the site must be built with the package ziglang");
 if (location.hash.startsWith("#m=")) open(() => modelOfAddress(location.hash), "The address");
-else fitView(canvas, painter, board.model);
-show();
-requestAnimationFrame(picture);
+else fitView();
+refresh();
+requestAnimationFrame(next);

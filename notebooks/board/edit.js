@@ -1,14 +1,15 @@
 // Changes of a drawing: parts are added, moved, renamed and removed, and what is joined to them follows.
 
+import {sidesOf} from "./scene.js";
 import {angleOf, bodyOf, drawnPlace, elementNamed, isJoint, lengthOf, ofKind, turned} from "./model.js";
 
-const KIND_WORDS = {link: "link", revolute: "pin", weld: "weld", slot: "slot", prismatic: "slider", motor: "motor", spring: "spring"};
+const KIND_WORDS = {link: "link", revolute: "pin", weld: "weld", slot: "slot", prismatic: "slider", motor: "motor", spring: "spring", point: "P", force: "load"};
 const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 
 export function newName(model, kind) {
   let count = 1;
-  while (elementNamed(model, `${KIND_WORDS[kind]}${count}`)) count++;
-  return `${KIND_WORDS[kind]}${count}`;
+  while (elementNamed(model, `${KIND_WORDS[kind] ?? kind}${count}`)) count++;
+  return `${KIND_WORDS[kind] ?? kind}${count}`;
 }
 
 function add(model, element) {
@@ -46,11 +47,28 @@ export function addSpring(model, from, to) {
                      length: +length.toPrecision(3), damping: 1});
 }
 
+// A point of a link at a place, whose path is drawn; beside the line of the link it makes a plate of it.
+export function addPoint(model, body, at) {
+  const link = elementNamed(model, body), [x, y] = turned(-angleOf(link), [at[0] - link.start[0], at[1] - link.start[1]]);
+  return add(model, {kind: "point", body, local: [+x.toPrecision(4), Math.abs(y) < 1e-3 * lengthOf(link) ? 0 : +y.toPrecision(4)]});
+}
+
+export function addLoad(model, side) {
+  return add(model, {kind: "force", point: side, along: [0, -1], frame: "ground", value: 10});
+}
+
+// A block with mass on a line of the ground, pinned to a side where there is one.
+export function addBlock(model, {side, at}, size) {
+  const block = add(model, {kind: "link", name: newName(model, "block"), start: [...at], end: [at[0] + size, at[1]], mass: 1});
+  if (side) addPin(model, side, `${block.name}.start`);
+  return add(model, {kind: "prismatic", first: onGround(at), second: `${block.name}.start`, axis: [1, 0], damping: 0, cut: false});
+}
+
 // Removes a part with all that needs it.
 export function remove(model, name) {
   const gone = new Set([name]);
   for (const element of model.elements) {
-    const needs = [element.first, element.second].filter(Boolean).map(bodyOf).concat(element.joint ?? []);
+    const needs = sidesOf(element).map(bodyOf).concat(element.joint ?? []);
     if (needs.some((each) => gone.has(each))) gone.add(element.name);
   }
   model.elements = model.elements.filter((element) => !gone.has(element.name));
@@ -61,7 +79,8 @@ export function rename(model, before, after) {
   for (const element of model.elements) {
     if (element.name === before) element.name = after;
     if (element.joint === before) element.joint = after;
-    for (const key of ["first", "second"]) if (element[key]) element[key] = sideNamed(element[key]);
+    if (element.body === before) element.body = after;
+    for (const key of ["first", "second", "point"]) if (element[key]) element[key] = sideNamed(element[key]);
   }
 }
 
@@ -81,7 +100,8 @@ function allowedPlace(model, sides, at) {
   const inner = sides.find((side) => typeof side !== "string" && side.body !== "ground");
   if (!inner) return at;
   const link = elementNamed(model, inner.body), [x, y] = turned(-angleOf(link), [at[0] - link.start[0], at[1] - link.start[1]]);
-  const local = [Math.min(Math.max(x, 0), lengthOf(link)), inner.local[1] && y];
+  const local = inner.local[1] ? [x, y] : [Math.min(Math.max(x, 0), lengthOf(link)), 0], {local: before} = structuredClone(inner);
+  for (const side of model.elements.flatMap(sidesOf)) if (side.body === inner.body && same(side.local, before)) side.local = [...local];
   for (const side of sides) if (side.body === inner.body) side.local = [...local];
   return drawnPlace(model, inner);
 }
@@ -126,7 +146,7 @@ export function takePoses(model, p) {
 export function targetAt(model, at, reach, grid) {
   const far = (place) => Math.hypot(place[0] - at[0], place[1] - at[1]);
   const sides = ofKind(model, "link").flatMap(({name}) => [`${name}.start`, `${name}.end`])
-    .concat(model.elements.filter(isJoint).flatMap(({first, second}) => [first, second]));
+    .concat(model.elements.filter(isJoint).flatMap(({first, second}) => [first, second]), ofKind(model, "point").map(({body, local}) => ({body, local})));
   const points = sides.map((side) => ({side, at: drawnPlace(model, side)})).filter(({at: place}) => far(place) < reach);
   points.sort((a, b) => far(a.at) - far(b.at) || (bodyOf(a.side) === "ground") - (bodyOf(b.side) === "ground"));
   if (points.length) return points[0];
@@ -150,7 +170,8 @@ export function partsAt(model, at, reach) {
     const [x, y] = turned(-angleOf(link), [at[0] - link.start[0], at[1] - link.start[1]]);
     return Math.abs(y) < reach && x > -reach && x < lengthOf(link) + reach;
   });
-  return [...joints, ...motors, ...springs, ...links].map(({name}) => name);
+  const points = [...ofKind(model, "point"), ...ofKind(model, "force")].filter((element) => far(drawnPlace(model, element.point ?? element)) < reach);
+  return [...points, ...joints, ...motors, ...springs, ...links].map(({name}) => name);
 }
 
 // A target as a new side, which no other element has.

@@ -3,12 +3,12 @@
 import {DRIVES_OF, UNITS_OF, angleOf, elementNamed, lengthOf} from "./model.js";
 import {rename} from "./edit.js";
 
+const needed = (value) => { if (!Number.isFinite(value)) throw new Error("a number is needed"); return value; };
 const shown = (value) => +value.toPrecision(6);
 const RAD = Math.PI / 180;
 
 const field = (label, value, set, more = {}) => ({label, value, set, ...more});
-const numberField = (label, name, key, more) => (model) => field(label, shown(elementNamed(model, name)[key]), (changed, value) => { elementNamed(changed, name)[key] = value; }, more);
-const needed = (value) => { if (!Number.isFinite(value)) throw new Error("a number is needed"); return value; };
+const numberField = (label, name, key, more) => (model) => field(label, shown(elementNamed(model, name)[key]), (changed, value) => { elementNamed(changed, name)[key] = needed(value); }, more);
 
 function linkFields(model, link) {
   return [
@@ -50,12 +50,19 @@ function motorFields(model, motor) {
 
 const springFields = (model, {name}) => [numberField("stiffness, N/m", name, "stiffness")(model), numberField("free length, m", name, "length")(model),
                                          numberField("damping, N s/m", name, "damping")(model)];
-const FIELDS = {link: linkFields, revolute: jointFields, weld: jointFields, slot: jointFields, prismatic: jointFields, motor: motorFields, spring: springFields};
+const pointFields = (model, {name}) => ["along the link, m", "beside it, m"].map((label, k) => field(label, shown(elementNamed(model, name).local[k]),
+  (changed, value) => { elementNamed(changed, name).local[k] = needed(value); }));
+// Components of a load; its direction stays where it vanishes.
+const loadFields = (model, {name, along, value}) => ["x", "y"].map((axis, k) => field(`force ${axis}, N`, shown(along[k] * value), (changed, given) => {
+  const load = elementNamed(changed, name), force = load.along.map((x, i) => (i === k ? needed(given) : x * load.value)), size = Math.hypot(...force);
+  Object.assign(load, {value: size, along: size ? force.map((x) => x / size) : load.along});
+}));
+const FIELDS = {point: pointFields, force: loadFields, link: linkFields, revolute: jointFields, weld: jointFields, slot: jointFields, prismatic: jointFields, motor: motorFields, spring: springFields};
 
 // Fields of the named part; without a name those of the whole mechanism.
 export function fieldsOf(model, name) {
   if (!name) return [field("name", model.name, (changed, value) => { changed.name = value; }),
-                     ...["x", "y"].map((axis, k) => field(`gravity ${axis}, m/s²`, model.gravity[k], (changed, value) => { changed.gravity[k] = value; }))];
+                     ...["x", "y"].map((axis, k) => field(`gravity ${axis}, m/s²`, model.gravity[k], (changed, value) => { changed.gravity[k] = needed(value); }))];
   const part = elementNamed(model, name);
   return [field("name", name, (changed, value) => rename(changed, name, value)), ...FIELDS[part.kind](model, part)];
 }

@@ -1,4 +1,4 @@
-// Mechanisms of the drawing board: the file format of `Mechanism.save`, for links, joints, motors and springs in the plane.
+// Mechanisms of the drawing board: the file format of `Mechanism.save`, for links, joints, motors, springs, points and loads in the plane.
 // What comes from an address or a file is checked here before anything else sees it.
 
 const MAX_ELEMENTS = 200, LARGEST_TEXT = 100000, LARGEST_NUMBER = 1e6;
@@ -96,6 +96,18 @@ const CHECKS = {
     if ([...known.values()].some((each) => each.kind === "motor" && each.joint === element.joint && each.drives === "speed" && element.drives === "speed"))
       refuse(`${what} must be the only motor that sets the speed of ${element.joint}`);
     return {joint: element.joint, drives: element.drives, law: checkedNumber(`law of ${what}`, element.law)};
+  },
+  point(element, known) {
+    checkedKeys(nameOf(element), element, ["kind", "name", "body", "local"]);
+    return checkedSide(nameOf(element), {body: element.body, local: element.local}, known);
+  },
+  force(element, known) {
+    const what = nameOf(element);
+    checkedKeys(what, element, ["kind", "name", "point", "along", "frame", "value"]);
+    if (element.frame !== "ground") refuse(`frame of ${what} must be ground`);
+    const along = checkedPair(`along of ${what}`, element.along);
+    if (Math.abs(Math.hypot(...along) - 1) > 1e-9) refuse(`along of ${what} must have length 1`);
+    return {point: checkedSide(`point of ${what}`, element.point, known), along, frame: "ground", value: checkedNumber(`value of ${what}`, element.value)};
   },
   spring(element, known) {
     const what = nameOf(element);

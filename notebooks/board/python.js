@@ -24,6 +24,8 @@ const LINES = {
     named({axis: drawnAxis(model, joint), damping: unlessZero(joint.damping)})})`,
   slot: (joint, model) => `m.slot(${text(joint.name)}, ${text(bodyOf(joint.first))}, ${side(joint.second)}${named({axis: drawnAxis(model, joint)})})`,
   motor: ({name, joint, drives, law}) => `m.motor(${text(name)}, ${text(joint)}${named({[drives]: number(law)})})`,
+  point: ({name, body, local}) => `m.point(${text(name)}, ${text(body)}, ${pair(local)})`,
+  force: ({name, point, along, value}) => `m.force(${text(name)}, ${side(point)}, ${pair(along)}, value=${number(value)})`,
   spring: ({name, first, second, ...values}) => `m.spring(${text(name)}, ${side(first)}, ${side(second)}${
     named(Object.fromEntries(["stiffness", "length", "damping"].map((key) => [key, number(values[key])])))})`,
 };

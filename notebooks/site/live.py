@@ -16,10 +16,11 @@ from zerodrift.export import wasm
 from zerodrift.mechanisms.files import from_json
 from zerodrift.mechanisms.files.to_json import described
 from zerodrift.player.live import LiveView, live_view, player
+from zerodrift.player.page import text as player_text
 from zerodrift.player.scene import Wanted
 
 BOARD = Path(__file__).parent.parent / "board"
-SCRIPTS = ("model.js", "block.js", "python.js", "edit.js", "fields.js", "picture.js", "board.js")      # what a script uses stands before it
+SCRIPTS = ("model.js", "scene.js", "block.js", "python.js", "edit.js", "fields.js", "board.js")      # what a script uses stands before it
 
 
 PACKAGE = [path for path in Path(zd.__file__).parent.rglob("*.*") if path.suffix != ".pyc"]
@@ -51,8 +52,10 @@ def core_bytes() -> str:
 def board() -> str:
     """The drawing board in one file, except for the core."""
     text = {path.name: path.read_text(encoding="utf-8") for path in BOARD.iterdir()}
-    script = plain(wasm.text("core.js")) + "".join(plain(text[name]) for name in SCRIPTS)
-    return text["board.html"].replace("/*style*/", text["board.css"]).replace("/*script*/", script)
+    script = plain(wasm.text("core.js")) + player_text("graph.js") + player_text("picture.js") + "".join(plain(text[name]) for name in SCRIPTS)
+    examples = [[name, described(each._drawing())] for name, each in drawn().items()]
+    script = script.replace("/*examples*/[]", json.dumps(examples, separators=(",", ":")))
+    return text["board.html"].replace("/*style*/", player_text("colours.css") + text["board.css"]).replace("/*script*/", script)
 
 
 def leg() -> zd.Mechanism:
@@ -90,28 +93,39 @@ def plain(script: str) -> str:
 
 
 def drawn() -> dict[str, zd.Mechanism]:
-    """Mechanisms that the page of the drawing board opens on it."""
-    crank = zd.Mechanism("crank and rocker", gravity=(0, -9.81))
+    """Mechanisms that the drawing board offers while it is empty, and its page."""
+    bar = zd.Mechanism("four-bar", gravity=(0, -9.81))
     for name, start, end in (("crank", (0, 0), (0, 0.4)), ("coupler", (0, 0.4), (1.2, 0.9)), ("rocker", (1.2, 0.9), (1, 0))):
-        crank.link(name, start, end, mass=1.0)
-    crank.revolute("A", crank.ground.point((0, 0)), "crank.start")
-    crank.revolute("B", "crank.end", "coupler.start")
-    crank.revolute("C", "coupler.end", "rocker.start")
-    crank.revolute("D", crank.ground.point((1, 0)), "rocker.end")
-    crank.motor("drive", "A", speed=3.0)
-    slider = zd.Mechanism("slider and crank", gravity=(0, -9.81))
+        bar.link(name, start, end, mass=1.0)
+    bar.revolute("A", bar.ground.point((0, 0)), "crank.start")
+    bar.revolute("B", "crank.end", "coupler.start")
+    bar.revolute("C", "coupler.end", "rocker.start")
+    bar.revolute("D", bar.ground.point((1, 0)), "rocker.end")
+    bar.motor("drive", "A", speed=3.0)
+    bar.point("P", "coupler", (0.6, 0.4))
+    slider = zd.Mechanism("slider-crank", gravity=(0, -9.81))
     slider.link("crank", (0, 0), (0.2, 0.3), mass=1.0)
     slider.link("rod", (0.2, 0.3), (1.2, 0), mass=1.0)
     slider.revolute("main", slider.ground.point((0, 0)), "crank.start")
     slider.revolute("pin", "crank.end", "rod.start")
     slider.slot("guide", "ground", "rod.end", axis=(1, 0))
     slider.spring("spring", slider.ground.point((2, 0)), "rod.end", stiffness=40.0, length=0.8, damping=0.5)
+    slider.motor("drive", "main", speed=5.0)
+    slider.force("load", "rod.end", value=(-20.0, 0.0))
+    watt = zd.Mechanism("Watt linkage", gravity=(0, -9.81))
+    for name, start, end in (("left", (-1, 0.2), (0, 0.2)), ("middle", (0, 0.2), (0, -0.2)), ("right", (0, -0.2), (1, -0.2))):
+        watt.link(name, start, end, mass=1.0)
+    watt.revolute("A", watt.ground.point((-1, 0.2)), "left.start")
+    watt.revolute("B", "left.end", "middle.start")
+    watt.revolute("C", "middle.end", "right.start")
+    watt.revolute("D", watt.ground.point((1, -0.2)), "right.end")
+    watt.point("P", "middle", (0.2, 0.0))
     pendulum = zd.Mechanism("double pendulum", gravity=(0, -9.81))
     pendulum.link("upper", (0, 0), (0.8, 0.1), mass=1.0)
     pendulum.link("lower", (0.8, 0.1), (1.4, 0.6), mass=1.0)
     pendulum.revolute("top", pendulum.ground.point((0, 0)), "upper.start")
     pendulum.revolute("elbow", "upper.end", "lower.start")
-    return {each.name: each for each in (crank, slider, pendulum)}
+    return {each.name: each for each in (bar, slider, watt, pendulum)}
 
 
 def address(mechanism: zd.Mechanism) -> str:

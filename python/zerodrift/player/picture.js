@@ -318,6 +318,7 @@ const draw = note => {
   spots = [];
   if (film.follow) follow();
   if (film.follow || space) grid();
+  film.under?.(line, tones);
   film.layers.forEach((layer, number) => {
     const face = number ? "transparent" : tones.body, edge = [tones.line, tones.second, tones.accent][number % 3];
     layer.order ??= space ? layer.shapes : [...layer.shapes].sort((a, b) => (back.indexOf(a[0]) + 1 || 99) - (back.indexOf(b[0]) + 1 || 99));
@@ -393,6 +394,14 @@ const thread = (at, [x, y]) => {        // from a point to one of the screen
 };
 const turnBy = (x, y) => { view.turn -= x; view.tilt = Math.min(Math.max(view.tilt + y, -1.5), 1.5); changed(); };
 const zoomBy = factor => { view.zoom = Math.min(Math.max(view.zoom * factor, 0.2), 20); changed(); };
+const mark = name => { const spot = spotOf(name); if (spot) ring(spot.at); };
+const cursor = (at, note, isSnapped) => {
+  const [x, y] = project(at);
+  pen.beginPath();
+  pen.arc(x, y, isSnapped ? 10 : 5, 0, 2 * Math.PI);
+  stroke(isSnapped ? tones.accent : tones.force, isSnapped ? 3 : 1.5);
+  words(note, Math.min(x + 14, width - 130), Math.max(y - 12, 14), tones.force);
+};
 readColours();
-return {view, tones, fit, frame, draw, ring, thread, project, unproject, place, turnBy, zoomBy, sub, cross, length, get spots() { return spots; }, get scale() { return scale; }};
+return {view, begin, mark, cursor, words, tones, fit, frame, draw, ring, thread, project, unproject, place, turnBy, zoomBy, sub, cross, length, get spots() { return spots; }, get scale() { return scale; }};
 };
