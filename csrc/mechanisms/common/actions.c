@@ -1,6 +1,9 @@
 /* Sums over terms of rows and generalized forces: what plane and space share. Their numerics are functions of the caller. */
 #include "actions.h"
 
+#include <limits.h>
+#include <math.h>
+
 /* Adds the terms of a row, `scale` times their factors. */
 static void add_row(const zd_actions *self, const zd_relation *row, const double *factors, double scale, void *to)
 {
@@ -37,6 +40,13 @@ void zd_joint_rows_act(const zd_actions *self, int count, const int *rows, const
     }
 }
 
+static int find_separation(const zd_actions *self, const zd_generalized_force *force, const zd_measured_state *at, double *value)
+{
+    const int status = zd_drive_force(self->elements, self->readings, force->first, INT_MAX, at->t, at->lambda, value);
+    *value = force->stiffness * fabs(*value);
+    return status;
+}
+
 int zd_drives_act(const zd_actions *self, int joint, const zd_measured_state *at)
 {
     const zd_planned_elements *elements = self->elements;
@@ -45,11 +55,13 @@ int zd_drives_act(const zd_actions *self, int joint, const zd_measured_state *at
     double value;
     for (int i = 0; i < efforts->count; i++)
         if (efforts->along[3 * i + 2] == joint) add_effort(self, efforts, i);
-    for (int i = 0; !at->is_of_constraints && i < elements->forces; i++) {
-        if (elements->force[i].joint != joint) continue;
-        const int status = zd_force_evaluate(elements, self->readings, elements->force + i, t, &value, NULL);
+    for (const zd_generalized_force *force = elements->force; force < elements->force + elements->forces; force++) {
+        const int separates = force->kind == ZD_FORCE_SEPARATION;
+        if (force->joint != joint || at->is_of_constraints > separates) continue;
+        const int status = separates ? find_separation(self, force, at, &value)
+                                     : zd_force_evaluate(elements, self->readings, force, t, &value, NULL);
         if (status) return status;
-        self->add(self->readings, self->to, elements->force[i].quantity, value);
+        self->add(self->readings, self->to, force->quantity, value);
     }
     for (int i = 0; i < elements->relations; i++) {
         const zd_relation *row = elements->row + elements->constraint_of_relation[i];

@@ -50,7 +50,9 @@ static int force_is_right(const tables *of, int i, zd_complaint to)
 {
     const zd_generalized_force *force = of->elements->force + i;
     const int needs_law = force->kind == ZD_FORCE_LAW;
-    return (zd_is_in(force->kind, ZD_FORCE_LAW + 1) && zd_is_in(force->quantity, of->quantities) && needs_law == (force->law >= 0) &&
+    if (force->kind == ZD_FORCE_SEPARATION && (!zd_is_in(force->first, of->elements->relations) || force->terms))
+        return zd_complain(to, "separating force %d: its relation must exist", i);
+    return (zd_is_in(force->kind, ZD_FORCE_SEPARATION + 1) && zd_is_in(force->quantity, of->quantities) && needs_law == (force->law >= 0) &&
             terms_are_right(of, force->first, force->terms, force->law, force->joint)) ||
            zd_complain(to, "generalized force %d: its kind, marker quantities, user function and joint must exist", i);
 }

@@ -33,7 +33,9 @@ typedef struct zd_relation {
 enum zd_force_kind {
     ZD_FORCE_SPRING,           /* -stiffness x, with x of its term, if it has one; each kind less damping xdot */
     ZD_FORCE_CONSTANT,         /* value */
-    ZD_FORCE_LAW               /* user function of t, and of x and xdot of its terms */
+    ZD_FORCE_LAW,              /* user function of t, and of x and xdot of its terms */
+    ZD_FORCE_SEPARATION        /* stiffness times the size of the force of relation `first` along its value: between teeth. It does no
+                                * work, so the reaction of `joint` contains it, and nothing else. */
 };
 
 /* Generalized force along a marker quantity: it acts on the second body, and its opposite on the first. */

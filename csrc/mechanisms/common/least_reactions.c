@@ -146,7 +146,7 @@ static int write_columns(const zd_measuring *self, const zd_measured_state *at, 
     const int m = self->elements->m, rows = rows_of_wrenches(self), count = of->SN.n = of->count;
     double sum = 0;
     for (int j = 0; j < count; j++) {
-        const int status = write_wrenches(self, &(zd_measured_state){at->t, at->p, at->v, NULL, of->N + j * m, 1, NULL}, of->wrenches);
+        const int status = write_wrenches(self, &(zd_measured_state){at->t, at->p, at->v, NULL, of->N + j * m, 2, NULL}, of->wrenches);
         const double square = zd_dot(rows, of->wrenches, of->wrenches);
         const int is_zero = square <= ZERO_COLUMN * ZERO_COLUMN;
         if (status) return status;
@@ -188,7 +188,7 @@ int zd_least_reactions(const zd_measuring *self, const zd_measured_state *at, do
     int status = find_redundant(self, at, &of);
     zd_copy_all(m, at->lambda, to);
     if (!status && of.count) {
-        status = write_wrenches(self, &(zd_measured_state){at->t, at->p, at->v, at->vdot, at->lambda, 1, at->efforts}, of.wrenches);
+        status = write_wrenches(self, &(zd_measured_state){at->t, at->p, at->v, at->vdot, at->lambda, 2, at->efforts}, of.wrenches);
         zd_row_space_factor(&of.SN, rows_of_wrenches(self), SINGULAR, 0);
         zd_row_space_solve(&of.SN, of.wrenches, of.z);
         for (int j = 0; j < of.count && !status; j++) zd_add_scaled(m, to, -of.z[j], of.N + j * m);

@@ -8,7 +8,7 @@ enum { ZD_WRENCH_FORCE = 3, ZD_WRENCH_SIZE = 6 };      /* components of a wrench
 typedef struct zd_measured_state {
     double t;
     const double *p, *v, *vdot, *lambda;    /* vdot NULL, for reactions: without inertia and given forces, those of lambda alone */
-    int is_of_constraints;      /* 1: given forces at a joint, such as its damping, are left out of its reaction */
+    int is_of_constraints;      /* 1: given forces at a joint, such as its damping, are left out of its reaction; 2: also separating forces */
     const zd_efforts *efforts;  /* NULL: none */
 } zd_measured_state;
 

@@ -77,7 +77,8 @@ static int forces_know_velocity(const zd_elements *elements)
 static int forces_have_power(const zd_elements *elements)
 {
     for (int i = 0; i < elements->forces; i++)
-        if (elements->force[i].damping != 0 || elements->force[i].kind != ZD_FORCE_SPRING) return 1;
+        if (elements->force[i].damping != 0 || elements->force[i].kind == ZD_FORCE_CONSTANT || elements->force[i].kind == ZD_FORCE_LAW)
+            return 1;
     return 0;
 }
 

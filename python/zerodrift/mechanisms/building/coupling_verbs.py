@@ -9,9 +9,11 @@ from ..._private import checks
 from ..._private.types import ArrayLike, Bindings, LawLike, Values
 from ...errors import WrongType, WrongValue
 from ...laws.formula import Formula, of_expression
-from ..elements.joints import Coupling, Joint
+from ..elements.joints import Coupling, Joint, Teeth
 from ..elements.measures import Measure, name_of
+from ..elements.numbers import AS_GIVEN
 from ..equations.measure_names import checked_reading
+from ..equations.teeth import mesh
 from .periodic_spline import periodic_spline
 from .registry import Elements
 
@@ -19,7 +21,8 @@ from .registry import Elements
 class CouplingVerbs(Elements):
     """Couplings of measures, one constraint each."""
 
-    def gear(self, name: str, first: Joint | str, second: Joint | str, *, ratio: float) -> Coupling:
+    def gear(self, name: str, first: Joint | str, second: Joint | str, *, ratio: float, pressure_angle: float | None = None,
+             helix_angle: float = 0.0, radius: float | None = None) -> Coupling:
         """Couple two hinges by gears: ``second.angle = ratio * first.angle``, as their joints measure them.
 
         Parameters
@@ -29,6 +32,16 @@ class CouplingVerbs(Elements):
             Two revolutes.
         ratio : float
             Less than 0 for wheels that mesh outside.
+        pressure_angle : float, optional
+            In rad, in the plane of the wheels, such as ``np.radians(20)``. The teeth then act where the pitch circles touch, on
+            two wheels that turn on one body, such as the ground or the carrier of a planet: a tangential force, and a
+            separating force of its size times the tangent, which pushes the teeth apart on either flank. Bearings contain them.
+        helix_angle : float
+            In space, in rad: adds an axial force, the tangential one times the tangent. For t = a x (from the first axis to the
+            second), with a the axis of the first joint, it is along a on the second wheel where the tangential one is along t.
+        radius : float, optional
+            For axes that intersect, of bevel gears: pitch radius of the second wheel, in the middle of its teeth, in m. For
+            parallel axes the radii follow from their distance and the ratio.
 
         Returns
         -------
@@ -47,10 +60,27 @@ class CouplingVerbs(Elements):
         -----
         The gear acts along the two angles, between the two bodies of each joint. Its effort is its own measure: ``mesh.torque``,
         in N m, acts on ``second.angle`` and is positive where it drives that angle up; ``-ratio * mesh.torque`` acts on
-        ``first.angle``. `force` and `torque` of the joints leave it out, and the side load of the teeth on the bearings is not
-        modelled.
+        ``first.angle``. `force` and `torque` of the joints leave it out, and the side load of the teeth on the bearings, too,
+        unless `pressure_angle` is given; ``mesh.tooth_force`` is then the tangential force. The motion is the same. The joints
+        that the gear couples bear the separating force alone, also where a wheel has other bearings.
         """
-        return self._linear(name, "gear", (first, ("angle",)), (second, ("angle",)), ratio)
+        return self._linear(name, "gear", (first, ("angle",)), (second, ("angle",)), ratio,
+                            self._teeth(name, pressure_angle, helix_angle, radius))
+
+    def _teeth(self, name: Any, pressure_angle: Any, helix_angle: Any, radius: Any) -> Teeth | None:
+        """Geometry of the teeth of a gear; None: without tooth forces."""
+        helix = checks.number(f"helix_angle of {name!r}", helix_angle)
+        if pressure_angle is None:
+            if helix or radius is not None:
+                raise WrongValue(f"pressure_angle of {name!r} must be given with helix_angle or radius", "missing-argument")
+            return None
+        pressure = checks.number(f"pressure_angle of {name!r}", pressure_angle)
+        if not 0 <= pressure < 1 or not -1.5 < helix < 1.5:
+            raise WrongValue(f"pressure_angle of {name!r} must be between 0 and 1 rad, and helix_angle between -1.5 and 1.5 rad, "
+                             f"not {pressure:g} and {helix:g}: np.radians(20) is 20 degrees", "out-of-range")
+        if helix and self.dimension == 2:
+            raise WrongValue(f"helix_angle of {name!r} is for mechanisms in space", "wrong-dimension")
+        return Teeth(pressure, helix, None if radius is None else checks.number(f"radius of {name!r}", radius, above=0))
 
     def rack_pinion(self, name: str, pinion: Joint | str, rack: Joint | str, *, ratio: float) -> Coupling:
         """Couple a hinge and a slider: ``rack.displacement = ratio * pinion.angle``.
@@ -86,7 +116,7 @@ class CouplingVerbs(Elements):
         """
         return self._linear(name, "rack_pinion", (pinion, ("angle",)), (rack, ("displacement",)), ratio)
 
-    def _linear(self, name: Any, kind: str, first: Any, second: Any, ratio: Any) -> Coupling:
+    def _linear(self, name: Any, kind: str, first: Any, second: Any, ratio: Any, teeth: Teeth | None = None) -> Coupling:
         name = self._new_name(name, kind)
         joints = [self._joint(f"{side} of {name!r}", *given) for side, given in (("first", first), ("second", second))]
         if joints[0] is joints[1]:
@@ -97,13 +127,16 @@ class CouplingVerbs(Elements):
             raise WrongValue(f"ratio of {name!r} must not be 0", "out-of-range")
         return self._couple(name, kind, tuple(
             f"{joint.name}.{joint.coordinate or given[1][0]}" for joint, given in zip(joints, (first, second), strict=True)),
-            ratio=ratio)
+            ratio=ratio, teeth=teeth)
 
     def _couple(self, name: str, kind: str, of: tuple[str, ...], **how: Any) -> Coupling:
         """Add a coupling of measures; its effort is a torque if all are angles, rates of angles or cosines of a rotation."""
         bases = [base.partition(".")[2] for each in of for base in checked_reading(each, each, None, self._elements).quantities]
         effort = "torque" if all("ang" in base or "rotation" in base for base in bases) else "force"
-        return self._add(Coupling(name, kind, of, effort, **how))
+        coupling = Coupling(name, kind, of, effort, **how)
+        if coupling.teeth:
+            mesh(coupling, self._elements, coupling.ratio, AS_GIVEN)
+        return self._add(coupling)
 
     def coupler(self, name: str, value: LawLike | Values, *, of: Bindings | None = None) -> Coupling:
         """Couple measures of positions by any function of them that has to be zero; the same as `constraint`, said of joints.

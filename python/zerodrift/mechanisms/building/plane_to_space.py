@@ -184,7 +184,8 @@ def _knife_edge(m: Any, joint: Any) -> None:
 
 
 def _linear(m: Any, coupling: Any) -> None:
-    getattr(m, coupling.kind)(coupling.name, *(measure.rpartition(".")[0] for measure in coupling.of), ratio=coupling.ratio)
+    getattr(m, coupling.kind)(coupling.name, *(measure.rpartition(".")[0] for measure in coupling.of), ratio=coupling.ratio,
+                             **(coupling.teeth._asdict() if coupling.teeth else {}))
 
 
 def _coupling(m: Any, coupling: Any) -> None:

@@ -6,7 +6,7 @@ entry in the table.
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -241,6 +241,14 @@ BY_ROW = {kind: made(kind) for kind in sorted(JOINTS.keys() - {written.kind for 
 globals().update({joint.__name__: joint for joint in BY_ROW.values()})
 
 
+class Teeth(NamedTuple):
+    """Pressure angle and helix angle of teeth in rad, and the pitch radius of the second wheel in m; None: from the distance."""
+
+    pressure_angle: float
+    helix_angle: float
+    radius: float | None
+
+
 class Coupling(Fixed):
     """One constraint between measures: gears, a rack and its pinion, couplers, cams and users' own constraints.
 
@@ -253,6 +261,8 @@ class Coupling(Fixed):
     ratio : float or None
     law : Law or None
         Function that is constrained to zero, of couplings other than gears, racks and cams.
+    teeth : Teeth or None
+        Geometry of the teeth of a gear whose tooth forces act on its bodies.
 
     Notes
     -----
@@ -262,18 +272,19 @@ class Coupling(Fixed):
     m/s. It is positive where it drives the value that is constrained up, and acts on each measure times the derivative of the
     value with respect to that; the value of gears, racks and cams is the second measure less what prescribes it.
     For every body, joints, springs, forces and couplings together are mass times acceleration. The force between teeth
-    across these coordinates (the load with which gears push their shafts apart and aside) is not modelled.
+    across these coordinates (the load with which gears push their shafts apart and aside) is modelled of gears with `teeth`.
     """
 
     def __init__(self, name: str, kind: str, of: tuple[str, ...], effort: str, *, ratio: float | None = None,
-                 law: Law | None = None) -> None:
-        self.name, self.kind, self.of, self.ratio, self.law = name, kind, of, ratio, law
+                 law: Law | None = None, teeth: Teeth | None = None) -> None:
+        self.name, self.kind, self.of, self.ratio, self.law, self.teeth = name, kind, of, ratio, law, teeth
         self._along_value = effort      # "torque" or "force"
 
     @property
     def efforts(self) -> tuple[str, ...]:
         """Measures of its generalized force: that along the value, and of a cam that along its angle."""
-        return (self._along_value, "cam_torque") if self.kind == "cam" else (self._along_value,)
+        more = "cam_torque" if self.kind == "cam" else "tooth_force" if self.teeth else None
+        return (self._along_value, more) if more else (self._along_value,)
 
     @property
     def force(self) -> Measure:
@@ -284,6 +295,11 @@ class Coupling(Fixed):
     def torque(self) -> Measure:
         """Torque in N m along the value that is constrained, an angle or its rate; positive if it increases the value."""
         return self._effort("torque")
+
+    @property
+    def tooth_force(self) -> Measure:
+        """Tangential force between the teeth of a gear in N, with the sign of `torque`."""
+        return self._effort("tooth_force")
 
     @property
     def cam_torque(self) -> Measure:

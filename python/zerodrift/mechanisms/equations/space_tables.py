@@ -23,6 +23,7 @@ from ..elements.space_joints import SpaceJoint, swivels
 from ..elements.table_forces import ROTATIONS, TableForce
 from . import space_tree
 from .tables import Tables
+from .teeth import Side, Wrench
 from .tree import inboard_joints
 
 
@@ -134,6 +135,16 @@ class SpaceTables(Tables):
         number = self.joint_number[joint.name]
         angles = sum(len(before.angles) for before in self.joints[:number])
         return space.coordinate_quantity(self.joint_rows[number], joint.coordinates.index(coordinate), angles)
+
+    def _mesh_quantities(self, side: Side, wrench: Wrench) -> Iterator[tuple[float, Quantity]]:
+        (first, point1), (second, point2) = self.place(side.on_carrier), self.place(side.on_wheel)
+        carrier = side.on_carrier.body
+        if size := float(np.linalg.norm(wrench.force)):
+            yield size, Quantity("along", first, second, point1, point2, a=self._direction(carrier, wrench.force / size))
+        across = np.cross(wrench.moment, side.axis)     # the axis times it is the moment without its part about the axis
+        if size := float(np.linalg.norm(across)):
+            yield size, Quantity("cosine", first, second, a=self._direction(carrier, across / size),
+                                 b=self._direction(side.on_wheel.body, side.axis_on_wheel))
 
     def _damped(self, joint: Any) -> list[int]:
         if not swivels(joint.row):

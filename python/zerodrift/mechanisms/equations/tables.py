@@ -22,7 +22,7 @@ from ..elements.joints import Coupling, Joint
 from ..elements.numbers import AS_GIVEN, Numbers
 from ..elements.own_measures import OwnMeasure
 from ..elements.table_forces import UNITS, TableForce, lengths, paths
-from . import function_calls, transmission
+from . import function_calls, teeth, transmission
 from .measure_names import checked_reading, has_coordinate
 from .tree import Edge, ends, inboard_joints
 
@@ -292,8 +292,15 @@ class Tables:
         if coupling.law is None:
             quantities = [self._quantity_of(name) for name in coupling.of]
             ratio = self.numbers(coupling, "ratio", coupling.ratio)
-            self._relation(coupling.name, entries.Relation(quantities, [-ratio, 1.0]))
-            self._observe_coupling(coupling, 2)
+            coefficients, row = [-ratio, 1.0], len(self.relations)
+            mesh = teeth.mesh(coupling, self.drawing.elements, ratio, self.numbers) if coupling.teeth else None
+            for side in mesh.sides if mesh else ():
+                self._add_teeth(coupling.name, side, quantities, coefficients)
+            self._relation(coupling.name, entries.Relation(quantities, coefficients))
+            self._observe_coupling(coupling, len(quantities))
+            if mesh:
+                self.observed.append(OutputSpec(f"{coupling.name}.tooth_force", "N", "drive", row, 1, mesh.tangential,
+                                                len(quantities)))
             return
         quantities, picks = self._inputs(coupling.of)
         nonholonomic = coupling.kind == "nonholonomic"
@@ -304,9 +311,28 @@ class Tables:
         self._relation(coupling.name, entries.Relation(quantities, nonholonomic=nonholonomic, law=self.laws.add(row)))
         self._observe_coupling(coupling, len(quantities))
 
+    def _add_teeth(self, name: str, side: teeth.Side, quantities: list[int], coefficients: list[Any]) -> None:
+        """Let a constraint act at the pitch point: add quantities that the wheel's bearing keeps at zero.
+
+        The separating force is added, too.
+        """
+        for i, (size, quantity) in enumerate(self._mesh_quantities(side, side.tooth)):
+            quantities.append(self._quantity(f"{name} {side.joint.name} tooth {i}", quantity))
+            coefficients.append(size)
+        for i, (size, quantity) in enumerate(self._mesh_quantities(side, side.separation)):
+            number = self._quantity(f"{name} {side.joint.name} separation {i}", quantity)
+            self.forces.append(entries.GeneralizedForce("separation", number, size, relation=len(self.relations),
+                                                        joint=self.joint_number[side.joint.name]))
+
+    def _mesh_quantities(self, side: teeth.Side, wrench: teeth.Wrench) -> Iterator[tuple[float, Any]]:
+        """Marker quantities along which a wrench acts on a wheel at its bearing, with the components."""
+        (first, point1), (second, point2) = self.place(side.on_carrier), self.place(side.on_wheel)
+        if size := float(np.hypot(*wrench.force[:2])):
+            yield size, Quantity("along", first, second, point1, point2, _pair(wrench.force[:2] / size))
+
     def _observe_coupling(self, coupling: Coupling, terms: int) -> None:
         """Add the efforts of the last relation as measures: that along its value, and that of a cam along its first term."""
-        for effort, term in zip(coupling.efforts, (terms, 0), strict=False):
+        for effort, term in zip(coupling.efforts[:1 if coupling.teeth else 2], (terms, 0), strict=False):
             unit = "N m" if effort.endswith("torque") else "N"
             self.observed.append(OutputSpec(f"{coupling.name}.{effort}", unit, "drive", len(self.relations) - 1, term=term))
 

@@ -160,8 +160,9 @@ def _by_row(joint: type[Joint]) -> Callable[..., None]:
     return make
 
 
-def _gear(m: Any, name: str, *, first: Any, second: Any, ratio: Any) -> None:
-    m.gear(name, first, second, ratio=ratio)
+def _gear(m: Any, name: str, *, first: Any, second: Any, ratio: Any, pressure_angle: Any = None, helix_angle: Any = 0.0,
+          radius: Any = None) -> None:
+    m.gear(name, first, second, ratio=ratio, pressure_angle=pressure_angle, helix_angle=helix_angle, radius=radius)
 
 
 def _rack_pinion(m: Any, name: str, *, first: Any, second: Any, ratio: Any) -> None:

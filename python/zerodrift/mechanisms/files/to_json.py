@@ -89,7 +89,8 @@ def _joint(joint: Any, drawing: Drawing) -> dict[str, Any]:
 
 def _linear(coupling: Coupling, drawing: Drawing) -> dict[str, Any]:
     first, second = (measure.rpartition(".")[0] for measure in coupling.of)
-    return {"first": first, "second": second, "ratio": coupling.ratio}
+    more = coupling.teeth._asdict() if coupling.teeth else {}
+    return {"first": first, "second": second, "ratio": coupling.ratio, **more}
 
 
 def _coupling(coupling: Any, drawing: Drawing) -> dict[str, Any]:

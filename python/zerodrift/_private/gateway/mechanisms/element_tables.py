@@ -24,7 +24,8 @@ Component = TypeVar("Component")
 Triple = tuple[Component, Component, Component]
 ZERO: Any = 0.0
 MAX_READS = lib.ZD_MAX_READS    # components that a formula reads, at most
-FORCE_KINDS = {"spring": lib.ZD_FORCE_SPRING, "constant": lib.ZD_FORCE_CONSTANT, "law": lib.ZD_FORCE_LAW}
+FORCE_KINDS = {"spring": lib.ZD_FORCE_SPRING, "constant": lib.ZD_FORCE_CONSTANT, "law": lib.ZD_FORCE_LAW,
+               "separation": lib.ZD_FORCE_SEPARATION}
 OUTPUT_KINDS = {
     "values": lib.ZD_VALUES, "rates": lib.ZD_RATES, "accelerations": lib.ZD_ACCELERATIONS, "joint force": lib.ZD_JOINT_FORCE,
     "joint torque": lib.ZD_JOINT_TORQUE, "joint tension": lib.ZD_JOINT_TENSION, "force value": lib.ZD_FORCE_VALUE,
@@ -85,6 +86,7 @@ class GeneralizedForce(NamedTuple, Generic[Scalar]):
     joint: int = -1             # to whose force and torque it contributes
     reads: Sequence[str] = ()   # reactions that the law takes after these
     what: str = ""              # name of the law in messages, such as "torque of motor 'drive'"
+    relation: int = -1          # between whose teeth it acts
 
 
 class OutputSpec(NamedTuple):
@@ -171,7 +173,7 @@ def written_elements(tables: Any, has_laws: bool, laws_know_time: bool) -> tuple
         terms += zip(row.quantities, row.coefficients or [1.0] * len(row.quantities), strict=True)
     for force in tables.forces:
         forces.append((FORCE_KINDS[force.kind], force.quantity, force.stiffness, force.damping, force.value, force.law,
-                        len(terms), len(force.inputs), force.joint))
+                       len(terms) if force.relation < 0 else force.relation, len(force.inputs), force.joint))
         terms += ((quantity, 1.0) for quantity in force.inputs)
     units = {unit: ffi.new("char[]", unit.encode()) for unit in {row.unit for row in tables.measures}}
     names = [ffi.new("char[]", row.name.encode()) for row in tables.measures]

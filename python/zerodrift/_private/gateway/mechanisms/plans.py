@@ -81,8 +81,8 @@ def rows_of_plan(c: Any, count: int, used: dict[int, int]) -> tuple[Relation, ..
 
 
 def forces_of(c: Any, count: int, used: dict[int, int]) -> tuple[GeneralizedForce, ...]:
-    """Generalized forces of the plan; `used` likewise."""
-    return tuple(_generalized_force(c, c.force[i], used) for i in range(count))
+    """Generalized forces of the plan that act in motions; `used` likewise."""
+    return tuple(_generalized_force(c, c.force[i], used) for i in range(count) if c.force[i].kind != lib.ZD_FORCE_SEPARATION)
 
 
 def _row(c: Any, row: Any, used: dict[int, int]) -> Relation:
