@@ -12,7 +12,8 @@ Call first, by task (``m`` is a mechanism or other system, ``sol`` a solution)::
     write your own equations    zd.System (NumPy), zd.symbolic (SymPy), zd.native (C or numba)
     simulate                    sol = zd.simulate(m, 10.0)
     read forces and motions     sol["pin.force"]; m.measures lists names; zd.Instant reads one state
-    plot                        zd.plot.mechanism(sol), zd.plot.measures(sol, ["pin.force"])
+    plot                        zd.plot.mechanism(sol), zd.plot.measures(sol, ["pin.force"]); zd.display_units(force="kN")
+    find the greatest loads     sol.loads("crank.angle"), sol["ground.force"], zd.plot.polar(sol, "pin.force")
     play a film                 zd.view(sol); with sliders: zd.explore
     stop at an event            zd.simulate(m, 10.0, events=zd.Event(...))
     control a run, step by step zd.Run, zd.every; many together: zd.ManyRuns
@@ -84,8 +85,8 @@ __all__ = [
     "Mechanism", "NoCompilerWarning", "NoUniqueMotion", "Projection", "Run", "SingularSystem", "Solution", "StabilityWarning",
     "StaleCore", "StateWarning", "StepFailed", "Structure", "System", "UnreachableTolerance", "UnsuitedFormulation",
     "UnsuitedIntegrator", "WorkerLost", "WrongState", "ZerodriftError", "acceleration", "assemble", "bias", "block", "c_source",
-    "check", "compare", "corrections", "ensemble", "equilibria", "equilibrium", "every", "explore", "flywheel", "fmu",
-    "formulations", "from_mechanics", "get_include", "grid", "inertia", "integrators", "inverse_dynamics", "jacobian",
+    "check", "compare", "corrections", "display_units", "ensemble", "equilibria", "equilibrium", "every", "explore", "flywheel",
+    "fmu", "formulations", "from_mechanics", "get_include", "grid", "inertia", "integrators", "inverse_dynamics", "jacobian",
     "kinematics", "linearize", "linkage", "load", "mass_matrix", "models", "native", "numba_signature", "plot", "project",
     "reach", "record_size", "reference", "simulate", "stability_map", "symbolic", "systems", "table", "trace",
     "transmission_angle", "tune", "view", "work_precision",
@@ -94,14 +95,14 @@ _LATER = {      # imported, or made, at first use
     "Baumgarte": "runs.arguments.methods", "EnergyCorrection": "runs.arguments.methods", "ManyRuns": "runs.open.many_runs",
     "Mechanism": "mechanisms.mechanism", "Projection": "runs.arguments.methods", "Run": "runs.open.run",
     "System": "systems.callables", "bias": "analysis.matrices", "block": "export.block", "c_source": "export.c_source",
-    "check": "studies.check", "ensemble": "ensembles.ensemble", "fmu": "export.fmu", "equilibria": "analysis.equilibria",
-    "equilibrium": "analysis.equilibrium", "explore": "player.explore", "flywheel": "studies.flywheel",
-    "from_mechanics": "symbolics.mechanics", "get_include": "systems.native", "grid": "ensembles.runs",
-    "inverse_dynamics": "analysis.inverse_dynamics", "jacobian": "analysis.matrices", "kinematics": "analysis.kinematics",
-    "linearize": "analysis.linearize", "linkage": "mechanisms.linkage", "load": "files", "mass_matrix": "analysis.matrices",
-    "native": "systems.native", "numba_signature": "systems.native", "reach": "tracing.trace",
-    "record_size": "runs.samples.record_size", "reference": "studies.reference", "stability_map": "studies.stability_map",
-    "symbolic": "symbolics.define", "table": "laws.table", "trace": "tracing.trace",
+    "check": "studies.check", "display_units": "units", "ensemble": "ensembles.ensemble", "fmu": "export.fmu",
+    "equilibria": "analysis.equilibria", "equilibrium": "analysis.equilibrium", "explore": "player.explore",
+    "flywheel": "studies.flywheel", "from_mechanics": "symbolics.mechanics", "get_include": "systems.native",
+    "grid": "ensembles.runs", "inverse_dynamics": "analysis.inverse_dynamics", "jacobian": "analysis.matrices",
+    "kinematics": "analysis.kinematics", "linearize": "analysis.linearize", "linkage": "mechanisms.linkage", "load": "files",
+    "mass_matrix": "analysis.matrices", "native": "systems.native", "numba_signature": "systems.native",
+    "reach": "tracing.trace", "record_size": "runs.samples.record_size", "reference": "studies.reference",
+    "stability_map": "studies.stability_map", "symbolic": "symbolics.define", "table": "laws.table", "trace": "tracing.trace",
     "transmission_angle": "tracing.transmission", "tune": "studies.tune", "view": "player.view",
     "work_precision": "studies.work_precision",
 }

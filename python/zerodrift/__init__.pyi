@@ -12,7 +12,8 @@ Call first, by task (``m`` is a mechanism or other system, ``sol`` a solution)::
     write your own equations    zd.System (NumPy), zd.symbolic (SymPy), zd.native (C or numba)
     simulate                    sol = zd.simulate(m, 10.0)
     read forces and motions     sol["pin.force"]; m.measures lists names; zd.Instant reads one state
-    plot                        zd.plot.mechanism(sol), zd.plot.measures(sol, ["pin.force"])
+    plot                        zd.plot.mechanism(sol), zd.plot.measures(sol, ["pin.force"]); zd.display_units(force="kN")
+    find the greatest loads     sol.loads("crank.angle"), sol["ground.force"], zd.plot.polar(sol, "pin.force")
     play a film                 zd.view(sol); with sliders: zd.explore
     stop at an event            zd.simulate(m, 10.0, events=zd.Event(...))
     control a run, step by step zd.Run, zd.every; many together: zd.ManyRuns
@@ -119,5 +120,6 @@ from .systems.structure import Structure as Structure
 from .tracing.trace import reach as reach
 from .tracing.trace import trace as trace
 from .tracing.transmission import transmission_angle as transmission_angle
+from .units import display_units as display_units
 
 __version__: str

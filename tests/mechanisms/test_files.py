@@ -59,6 +59,7 @@ def everything():
     m.torque("air", wheel, value=0.3, against=sleigh)
     m.force("eyed", eye, along=(0, 2), value=1e-17)
     m.measure("share", lambda F, x: x * F, of={"F": "eyed.force", "x": "bob.position.x"}, unit="J")
+    m.group("both", ["bob", m.bodies[0]])
     m.start({arm.angle: 0.3, "bob.velocity": (0.1, 0.2)}, wish={"sleigh.position.x": -4.2})
     return m
 

@@ -121,7 +121,7 @@ def planetary(**teeth):
 
 @pytest.mark.parametrize("coordinates", ["joint", "absolute"])
 def test_the_pin_of_a_planet_bears_its_share(coordinates):
-    """2 F per planet: 12.5 N m on three pins at 0.02 m; separating forces of sun and ring cancel, the planet's own weight is small."""
+    """2 F per planet: 12.5 N m on three pins at 0.02 m, and the planet's centripetal force; separating forces cancel."""
     sol = zd.simulate(planetary(pressure_angle=PRESSURE).system(coordinates), 0.01, step=1e-3)
     centripetal = 0.1 * 0.02 * 25.0**2
     for i in range(3):
@@ -141,8 +141,9 @@ def test_files_copies_and_the_plane_in_space(tmp_path):
 
 def test_lanes_have_the_forces_of_single_runs():
     loads = np.linspace(-4.0, 4.0, 9)
-    ens = zd.ensemble(planetary(pressure_angle=PRESSURE), 0.02, parameters={"load.value": loads}, step=1e-3, outputs=["pin0.force"])
-    single = zd.simulate(planetary(pressure_angle=PRESSURE).with_parameters({"load.value": loads[2]}), 0.02, step=1e-3)
+    m = planetary(pressure_angle=PRESSURE)
+    ens = zd.ensemble(m, 0.02, parameters={"load.value": loads}, step=1e-3, outputs=["pin0.force"])
+    single = zd.simulate(m.with_parameters({"load.value": loads[2]}), 0.02, step=1e-3)
     assert ens["pin0.force"][2] == pytest.approx(single["pin0.force"], rel=1e-9)
 
 

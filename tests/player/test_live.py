@@ -115,7 +115,7 @@ def test_a_length_is_changed_and_one_that_cannot_close_is_refused(browser, tmp_p
     place, told = slide(browser, 0, 5 * value)
     with pytest.raises(zd.CorrectionFailed) as refusal:
         model.system()._with({f"{link}.length": 5 * value}).start_at(0.0)
-    assert told == f"{link}.length cannot be {5 * value:#.4g}: {sentence(refusal.value)}"
+    assert told == f"{link}.length cannot be {5 * value:#.4g} m: {sentence(refusal.value)}"
     assert float(place) == pytest.approx(changed, abs=0.03 * value)
     assert browser.evaluate(distance(link)) == pytest.approx(changed, abs=1e-9)
     assert browser.errors == []

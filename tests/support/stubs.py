@@ -45,6 +45,7 @@ SystemLike = Mechanism | BaseSystem
 StateLike = ArrayLike | Reading
 MeasureLike = Measure | str
 Measures = Sequence[MeasureLike]
+Display = Mapping[str, str]
 EventLike = Event | Measure | str | Expression | Callable[[float, np.ndarray, np.ndarray], float]
 Events = EventLike | Sequence[EventLike]
 Names = MeasureLike | Measures

@@ -312,3 +312,34 @@ def test_what_has_no_end(monkeypatch):
         zd.reach(m, "slide.displacement")
     with refused("not-increasing"):
         zd.trace(m, "slide.displacement", [0.0, 1.0, 0.5], through=True)
+
+
+@pytest.mark.parametrize("coordinates", ["joint", "absolute"])
+def test_forces_of_a_mechanism_at_rest(coordinates):
+    """The effort is the slope of the potential energy, and the ground bears the weight and the spring."""
+    m = zd.Mechanism("lift", gravity=(0, -9.81))
+    crank, rod = m.link("crank", (0, 0), (0.1, 0.2), mass=2.0), m.link("rod", (0.1, 0.2), (0.6, 0), mass=3.0)
+    ram = m.particle("ram", 5.0, at=(0.6, 0))
+    main = m.revolute("main", m.ground, crank.start)
+    m.revolute("pin", crank.end, rod.start)
+    m.revolute("wrist", rod.end, ram)
+    m.slot("guide", m.ground, ram, axis=(1, 0))
+    m.spring("spring", m.ground.point((1, 0)), ram, stiffness=400.0, length=0.3)
+    m.motor("drive", main, speed=3.0)
+    values = np.linspace(0.3, 2.5, 2001)
+    traced = zd.trace(m.system(coordinates), crank.angle, values, forces=True)
+    height = 2.0 * traced["crank.center.position.y"] + 3.0 * traced["rod.center.position.y"]
+    V = 9.81 * height + 200.0 * (1.0 - traced["ram.position.x"] - 0.3)**2
+    slope = (V[:-4] - 8 * V[1:-3] + 8 * V[3:-1] - V[4:]) / (12 * (values[1] - values[0]))
+    assert traced["effort"][2:-2] == pytest.approx(slope, abs=1e-9 * np.abs(slope).max())
+    assert traced.unit_of("effort") == "N m"
+    pull = 400.0 * (1.0 - traced["ram.position.x"] - 0.3)
+    assert traced["spring.force"] == pytest.approx(pull, rel=1e-12)
+    bearing = traced["main.force"] + traced["guide.force"]
+    assert bearing[:, 0] == pytest.approx(-pull, rel=1e-9)
+    assert bearing[:, 1] == pytest.approx(np.full(2001, 10.0 * 9.81), rel=1e-9)
+
+
+def test_a_trace_without_forces_has_none():
+    with refused("not-available", "main.force"):
+        zd.trace(zd.models.slider_crank(), "crank.angle", [0.1, 0.2])["main.force"]

@@ -90,11 +90,22 @@ static int formula_is_right(const zd_elements *elements, const zd_output_spec *f
     return 1;
 }
 
+static int sum_is_right(const tables *of, const zd_output_spec *sum)
+{
+    const int first = sum->term, count = sum->size;
+    if (first < 0 || count < 1 || first + count > of->elements->terms || sum->index < 1) return 0;
+    for (const zd_quantity_term *term = of->elements->term + first; term < of->elements->term + first + count; term++)
+        if (term->quantity != -1 && !zd_is_in(term->quantity, of->quantities)) return 0;
+    return 1;
+}
+
 static int measure_is_right(const tables *of, int i, zd_complaint to)
 {
     const zd_output_spec *measure = of->elements->measure + i;
     if (measure->kind == ZD_FORMULA)
         return formula_is_right(of->elements, measure) || zd_complain(to, "measure %s: what it reads must exist", measure->name);
+    if (measure->kind > ZD_FORMULA)
+        return sum_is_right(of, measure) || zd_complain(to, "measure %s: the entries that it measures must exist", measure->name);
     const int kind = measure->kind, count = count_of(of, kind), index = measure->index;
     const int size = kind <= ZD_ACCELERATIONS || kind >= ZD_FORCE_SUM ? measure->size : 1;
     const int last = kind == ZD_DRIVE_VALUE && zd_is_in(index, count) ? of->elements->relation[index].terms : kind == ZD_JOINT_TORQUE;

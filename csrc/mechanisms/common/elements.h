@@ -65,8 +65,15 @@ enum zd_output_kind {
     ZD_DRIVE_POWER,
     ZD_FORCE_SUM,            /* N: sum of the forces of `size` generalized forces from `index` on, on their second body */
     ZD_TORQUE_SUM,           /* N m: sum of their moments about that body's mass centre, in space */
-    ZD_FORMULA               /* user function `index` of t and of components of other measures: `size` entries of the table of terms from
+    ZD_FORMULA,              /* user function `index` of t and of components of other measures: `size` entries of the table of terms from
                               * `term` on, whose quantity is the measure and whose coefficient the component */
+    ZD_SUM,                  /* sums of marker quantities times coefficients: of the `size` entries of the table of terms from `term` on,
+                              * each `index` are a component. A quantity -1 has the value 1. */
+    ZD_SUM_OF_RATES,
+    ZD_SUM_OF_ACCELERATIONS,
+    ZD_ANGULAR_MOMENTUM,     /* about the origin, of bodies with `index` terms each, `size` in all: positions of the mass centre with the
+                              * mass, and angles or spins about principal axes with the moments of inertia; 0: no such body */
+    ZD_INERTIA_TORQUE        /* its rate less the moment of gravity, whose components are the last terms, with the quantity -1 */
 };
 
 enum { ZD_MAX_READS = 32, ZD_MAX_COMPONENTS = 9 };     /* largest number of components that a formula reads, and of a measure that it reads */
@@ -75,8 +82,8 @@ typedef struct zd_output_spec {
     const char *name, *unit;
     int kind;                   /* enum zd_output_kind */
     int index;
-    int size;                   /* number of marker quantities (values, rates, accelerations), of generalized forces (sums of them), or of
-                                 * what a formula reads */
+    int size;                   /* number of marker quantities (values, rates, accelerations), of generalized forces (sums of them), of
+                                 * what a formula reads, or of the terms of sums of marker quantities */
     double scale;               /* factor of the measured value: -1 for tensions of springs */
     int term;                   /* for drive values: term of the relation, or their number, for the value; for joint torques 1: about the
                                  * point of the first body; otherwise 0 */

@@ -199,7 +199,16 @@ int zd_measures_evaluate(const zd_measuring *self, int measure, const zd_measure
         for (int i = 0; i < output->size; i++) measure_quantity(self, output, i, at, out);
         return ZD_DONE;
     }
-    return measure_with_least(self, output, at, out);
+    switch (output->kind) {
+    case ZD_SUM:
+    case ZD_SUM_OF_RATES:
+    case ZD_SUM_OF_ACCELERATIONS: zd_sum_measure(self, output, at, out); return ZD_DONE;
+    case ZD_ANGULAR_MOMENTUM:
+    case ZD_INERTIA_TORQUE:
+        if (out->value) zd_momentum_measure(self, output, at, out->value);
+        return ZD_DONE;
+    default: return measure_with_least(self, output, at, out);
+    }
 }
 
 int zd_measures_read(const zd_measuring *self, int law, const zd_measured_state *at, const double *r, int is_same_state, double *u)

@@ -8,8 +8,13 @@ int zd_output_size(const zd_output_spec *measure, int of_forces, int of_torques)
     case ZD_RATES:
     case ZD_ACCELERATIONS: return measure->size;
     case ZD_JOINT_FORCE:
+    case ZD_SUM:
+    case ZD_SUM_OF_RATES:
+    case ZD_SUM_OF_ACCELERATIONS:
     case ZD_FORCE_SUM: return of_forces;
     case ZD_JOINT_TORQUE:
+    case ZD_ANGULAR_MOMENTUM:
+    case ZD_INERTIA_TORQUE:
     case ZD_TORQUE_SUM: return of_torques;
     default: return 1;
     }
@@ -17,7 +22,14 @@ int zd_output_size(const zd_output_spec *measure, int of_forces, int of_torques)
 
 static enum zd_depends depends_on(const zd_output_spec *measure)
 {
-    return measure->kind == ZD_VALUES ? ZD_OF_POSITIONS : measure->kind == ZD_RATES ? ZD_OF_VELOCITIES : ZD_OF_ACCELERATIONS;
+    switch (measure->kind) {
+    case ZD_VALUES:
+    case ZD_SUM: return ZD_OF_POSITIONS;
+    case ZD_RATES:
+    case ZD_SUM_OF_RATES:
+    case ZD_ANGULAR_MOMENTUM: return ZD_OF_VELOCITIES;
+    default: return ZD_OF_ACCELERATIONS;
+    }
 }
 
 void zd_output_list(const zd_planned_elements *elements, int count, int of_forces, int of_torques, zd_measure *measure)
@@ -33,10 +45,15 @@ int zd_output_is_available(const zd_planned_elements *elements, const zd_output_
     switch (measure->kind) {
     case ZD_VALUES:
     case ZD_RATES:
+    case ZD_SUM:
+    case ZD_SUM_OF_RATES:
+    case ZD_ANGULAR_MOMENTUM:
     case ZD_FORCE_VALUE:
     case ZD_FORCE_POWER:
     case ZD_FORCE_SUM:
     case ZD_TORQUE_SUM: return 1;
+    case ZD_SUM_OF_ACCELERATIONS:
+    case ZD_INERTIA_TORQUE:
     case ZD_ACCELERATIONS: return vdot != NULL;
     default: return vdot && (lambda || elements->m == 0);
     }

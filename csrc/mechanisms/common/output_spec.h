@@ -54,6 +54,11 @@ int zd_drive_force(const zd_planned_elements *elements, const zd_readings *at, i
 int zd_output_drive(const zd_planned_elements *elements, const zd_readings *at, const zd_output_spec *measure, double t, const double *lambda,
                     double *value);
 
+/* Measures of several bodies: sums of marker quantities, with derivatives as of one; and moments about the origin. */
+
+void zd_sum_measure(const zd_measuring *self, const zd_output_spec *measure, const zd_measured_state *at, const zd_measured *out);
+void zd_momentum_measure(const zd_measuring *self, const zd_output_spec *measure, const zd_measured_state *at, double *value);
+
 /* Evaluation of measures, common to plane and space: dispatch by kind, on the numerics of either. */
 
 /* As zd_measures.evaluate(). Returns ZD_DONE, ZD_BAD_ARGUMENT or ZD_CALLBACK. */

@@ -26,7 +26,7 @@ from .assembly.variants import are_plain, varied
 from .building.start_verbs import targets
 from .elements.drawing import Drawing
 from .elements.forces import driven, inputs_of
-from .elements.numbers import Numbers, checked, is_right
+from .elements.numbers import Numbers, checked, is_right, parameter_units
 from .elements.space_bodies import SpaceInertias
 from .equations.generated_code import Written, measure_program
 from .equations.measure_names import constraint_names
@@ -318,11 +318,18 @@ class MechanismSystem(Reported):
         numbers = {name: checked(name, value) for name, value in changed.items()}
         return MechanismSystem(self._drawing, self.layout, self._changed | numbers, self._compiled, self._known_closed_form())
 
+    def _without_drives(self) -> MechanismSystem:
+        """The same system without motors and actuators that prescribe a motion."""
+        return MechanismSystem(self._drawing.without_drives(), self.layout, self._changed, self._compiled)
+
     def _driven_from(self, places: list[float]) -> MechanismSystem:
         """The same system with these initial positions of its motors of constant speed, as assembled or nearly."""
         other = self._with({})
         other._start.drives = dict(zip(other._start.drives_by_name, places, strict=True))
         return other
+
+    def _parameter_units(self) -> dict[str, str]:
+        return parameter_units(self.parameters, self._drawing.elements)
 
     def _definition(self) -> tuple[Any, ...]:
         drawing = self._drawing

@@ -8,8 +8,9 @@ import secrets
 from collections.abc import Callable, Mapping
 from typing import Any, Unpack
 
+from .. import units
 from .._private import checks
-from .._private.types import ExploreOptions, SystemLike
+from .._private.types import Display, ExploreOptions, SystemLike
 from ..errors import MissingPackage, WrongType, WrongValue, ZerodriftError
 from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
@@ -38,7 +39,7 @@ class Exploration:
     """
 
     def __init__(self, made: Callable[[dict[str, float]], Any], t_span: Any, ranges: Mapping[str, tuple[float, float]],
-                 values: Mapping[str, float], options: Mapping[str, Any]) -> None:
+                 values: Mapping[str, float], options: Mapping[str, Any], units_of: Mapping[str, str] | None = None) -> None:
         self._made, self._t_span, self.ranges, self.values = made, t_span, dict(ranges), dict(values)
         self._shown = {name: options[name] for name in SHOWN if name in options}
         self._settings = {name: value for name, value in options.items() if name not in SHOWN}
@@ -46,6 +47,7 @@ class Exploration:
         self.film: View | None = None
         self.message = ""
         self.group = secrets.token_hex(8)
+        self._display, self._units = units.chosen(), units_of or {}
         self._run()
 
     def set(self, values: Mapping[str, float] | None = None, /, **named: float) -> Exploration:
@@ -85,7 +87,8 @@ class Exploration:
         except (ZerodriftError, ValueError) as error:
             self.message = str(error)
             return
-        self.film = View([self.solution], [self.solution.system.name], Wanted(**self._shown, group=self.group))
+        with units.display_units(self._display):
+            self.film = View([self.solution], [self.solution.system.name], Wanted(**self._shown, group=self.group))
 
     def widget(self) -> Any:
         """Sliders above the film, as a widget of ipywidgets.
@@ -102,13 +105,19 @@ class Exploration:
         except ImportError:
             raise MissingPackage("sliders need ipywidgets, which is not installed: pip install 'zerodrift[notebook]'") from None
         pictures = [ipywidgets.HTML(self._picture()), ipywidgets.HTML(layout={"display": "none"})]
-        sliders = [ipywidgets.FloatSlider(value=self.values[name], min=low, max=high, step=(high - low) / STEPS, description=name,
-                                          readout_format=".4g", continuous_update=True, style={"description_width": "12em"},
-                                          layout={"width": "34em", "max_width": "100%"})
-                   for name, (low, high) in self.ranges.items()]
+        with units.display_units(self._display):
+            shown = {name: units.shown(self._units.get(name, "")) for name in self.ranges}
+        names = {f"{name} [{of.unit}]" if of.unit else name: name for name, of in shown.items()}
+        sliders = []
+        for described, name in names.items():
+            value, low, high = (each * shown[name].factor for each in (self.values[name], *self.ranges[name]))
+            sliders.append(ipywidgets.FloatSlider(
+                value=value, min=low, max=high, step=(high - low) / STEPS, description=described, readout_format=".4g",
+                continuous_update=True, style={"description_width": "14em"}, layout={"width": "36em", "max_width": "100%"}))
 
         def moved(change: Any) -> None:
-            self.set({change["owner"].description: change["new"]})
+            name = names[change["owner"].description]
+            self.set({name: change["new"] / shown[name].factor})
             pictures.reverse()
             pictures[0].value = self._picture()
             pictures[0].layout.display, pictures[1].layout.display = None, "none"
@@ -132,8 +141,10 @@ class Exploration:
         return f"<exploration of {values}: {message}>"
 
 
+@units.displayed
 def explore(system: SystemLike | Callable[..., SystemLike], parameters: Mapping[str, tuple[float, float]],
-            t_span: float | tuple[float, float] = 10.0, **options: Unpack[ExploreOptions]) -> Exploration:
+            t_span: float | tuple[float, float] = 10.0, *, display: Display | None = None,
+            **options: Unpack[ExploreOptions]) -> Exploration:
     """Sliders that simulate again while they are dragged, above the film and its graphs.
 
     Parameters
@@ -146,6 +157,8 @@ def explore(system: SystemLike | Callable[..., SystemLike], parameters: Mapping[
         value, if that is within the range, otherwise in the middle.
     t_span : float or (float, float)
         As of `simulate`.
+    display : dict of str to str, optional
+        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
     **options
         ``forces``, ``path``, ``graphs``, ``names`` and ``speed`` are those of `view`; all others are those of `simulate`.
 
@@ -178,7 +191,7 @@ def explore(system: SystemLike | Callable[..., SystemLike], parameters: Mapping[
     if unknown:
         raise WrongValue(f"parameters must be those of {whole.name}, {', '.join(whole.parameters)}, not {unknown[0]!r}",
                          "wrong-name")
-    return Exploration(made.with_parameters, t_span, ranges, _first(ranges, whole.parameters), options)
+    return Exploration(made.with_parameters, t_span, ranges, _first(ranges, whole.parameters), options, whole._parameter_units())
 
 
 def _ranges(parameters: Mapping[str, Any]) -> dict[str, tuple[float, float]]:

@@ -84,7 +84,7 @@ function tell() {
 const LONGEST = 600;        // pictures that lines reach back
 const line = (name, unit, measured) => ({name, unit, measured, values: []});
 const trust = [line("position violation", "m", violation), line("energy error", "J", (m) => Math.abs(energyViolation(m)))];
-const graphs = scene.graphs.map(({name, unit, measure, part}) => line(name, unit, (m) => read(m, measure)[part]));
+const graphs = scene.graphs.map(({name, unit, factor, measure, part}) => line(name, unit, (m) => factor * read(m, measure)[part]));
 const ways = scene.paths.map((name) => line(name, "m", (m) => [...read(m, name)]));
 const drawnOn = [[document.getElementById("trust"), trust, true]];
 for (const unit of new Set(graphs.map((each) => each.unit))) {
@@ -288,14 +288,14 @@ function listen() {
   addEventListener("keyup", (event) => { if (event.key.startsWith("Arrow")) letGo(); });
 }
 
-function addSlider({name, kind, least, most, value, unit: unitOf}) {
+function addSlider({name, kind, least, most, value, unit: unitOf, factor}) {
   const label = document.createElement("label"), slider = document.createElement("input"), shown = document.createElement("output");
   const [set, get] = kind === "input" ? [setInput, input] : [setParameter, parameter];
   Object.assign(slider, {type: "range", min: least, max: most, step: (most - least) / 200, value});
   slider.setAttribute("aria-label", name);
   const show = () => {
     slider.value = get(live.mechanism, name);
-    shown.textContent = `${get(live.mechanism, name).toPrecision(4)} ${unitOf}`;
+    shown.textContent = `${(get(live.mechanism, name) * factor).toPrecision(4)} ${unitOf}`;
   };
   slider.addEventListener("input", () => {
     const wanted = Math.min(most, Math.max(least, +slider.value));
@@ -303,7 +303,7 @@ function addSlider({name, kind, least, most, value, unit: unitOf}) {
       set(live.mechanism, name, wanted);
       words.told.textContent = "";
     } catch (error) {
-      fail(new Error(`${name} cannot be ${wanted.toPrecision(4)}: ${error.message}`));
+      fail(new Error(`${name} cannot be ${(wanted * factor).toPrecision(4)} ${unitOf}: ${error.message}`));
     }
     show();
     reshape();

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from .. import units
 from .._private import checks
 from .._private.gateway.mechanisms.blocks import BlockCore
 from ..errors import WrongValue, ZerodriftError
@@ -45,7 +46,6 @@ UNMOVED = (".mass", ".stiffness", ".damping")       # parameters that move no po
 DIGITS, EXACT = 9, 14   # decimal places of coordinates in m, in pages and in polynomials
 TURNING = ", with Shift they turn the view"
 # Units of parameters by their endings.
-UNITS = {"length": "m", "mass": "kg", "stiffness": "N/m", "damping": "N s/m", "torque": "N m", "force": "N"}
 Limits = dict[str, tuple[float, float]]
 BODY = """<canvas id="picture" role="img" tabindex="0"
 aria-label="{name}, simulated; n chooses a part, arrow keys pull it{turning}"></canvas><div id="bar">
@@ -131,13 +131,13 @@ def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None 
     data = written(chosen._replace(limits=limits), words[0])
     values = {**system.parameters, **BlockCore(data).inputs}
     shown = [{"name": name, "kind": kind, "least": least, "most": most, "value": values[name],
-              "unit": _unit(name, known)}
+              **units.shown(system._parameter_units().get(name, ""))._asdict()}
              for kind, those in (("parameter", limits), ("input", inputs)) for name, (least, most) in those.items()]
     film = scene([sol], [system.name], Wanted(samples=SAMPLES))
     kept = {name: film[name] for name in ("name", "upside", "dimension", "low", "high", "follow", "pin")}
     size = float(np.linalg.norm(np.subtract(film["high"], film["low"])) or 1.0)
     kept |= {"arrow": ARROW * size, "names": wanted.names, "paths": paths, "arrows": arrows,
-             "graphs": [_read(variable, known) for variable in graphs]}
+             "graphs": [_read(system, variable.name) for variable in graphs]}
     mass = sum(body.mass for body in system._started_tables.written().bodies)
     gravity = float(np.linalg.norm([value for name, value in system.parameters.items() if name.startswith("gravity.")]))
     return LiveView({
@@ -145,20 +145,12 @@ def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None 
         "speed": speed, "sliders": shown, "mass": mass, "weight": mass * gravity})
 
 
-def _read(variable: Any, known: Mapping[str, tuple[int, int]]) -> dict[str, Any]:
-    """A graph: its name and unit, the measure that it shows, and the component."""
-    found: Any = find(variable.name, known)
-    return {"name": variable.name, "unit": variable.unit, "measure": list(known)[found.number], "part": found.component or 0}
-
-
-def _unit(name: str, known: Mapping[str, Any]) -> str:
-    """Unit of a parameter or an input."""
-    element, _, ending = name.rpartition(".")
-    if element == "gravity":
-        return "m/s\u00b2"
-    if ending == "speed":
-        return "rad/s" if f"{element}.torque" in known else "m/s"
-    return UNITS.get(ending, "")
+def _read(system: MechanismSystem, name: str) -> dict[str, Any]:
+    """A graph: its name, unit and factor, the measure that it shows, and the component."""
+    known = system._watching.known
+    found: Any = find(name, known)
+    return {"name": name, **units.shown(system._unit_of_measure(name))._asdict(), "measure": list(known)[found.number],
+            "part": found.component or 0}
 
 
 def _motion(system: MechanismSystem, step: float, options: Mapping[str, Any]) -> Solution:

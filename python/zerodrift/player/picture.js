@@ -366,7 +366,7 @@ const labels = note => {
   }
   const scales = film.layers.flatMap(layer => layer.arrows);
   if (scales.length) {
-    const long = film.arrow * scale, text = "force " + shortly(scales[0].scale) + " N";
+    const long = film.arrow * scale, text = "force " + shortly(scales[0].scale * (scales[0].factor || 1)) + " " + (scales[0].unit || "N");
     pen.beginPath();
     trace([[12, height - 12], [12 + long, height - 12]]);
     stroke(tones.force, 2.4);

@@ -93,7 +93,7 @@ const draw = () => {
 let said = 0;               // time of the line for screen readers, which follows a motion in tenths
 const told = () => {        // the chosen part, and its forces in each of the films
   const loads = film.layers.flatMap(layer => layer.loads.filter(each => each.name === view.chosen).map(each => shortly(at(each.values)) + " " + each.unit));
-  const arrows = loads.length ? [] : film.layers.flatMap(layer => layer.arrows.filter(each => each.name === view.chosen).map(each => shortly(each.size) + " N"));
+  const arrows = loads.length ? [] : film.layers.flatMap(layer => layer.arrows.filter(each => each.name === view.chosen).map(each => shortly(each.size * each.factor) + " " + each.unit));
   return [view.chosen, [...loads, ...arrows].join(", ")].filter(Boolean).join(": ");
 };
 const at = values => { const i = Math.min(Math.floor(shown()), last), next = values[Math.min(i + 1, last)]; return values[i] + (next - values[i]) * (shown() - i); };

@@ -22,6 +22,7 @@ from ..plot.glyphs import GLYPHS
 from ..runs.samples.columns import columns
 from ..runs.samples.solution import Solution
 from ..systems.shapes import Shape
+from ..units import shown
 from .rigid import carried
 
 RATE, RATE_OF_LINES = 20, 60    # samples of points, and of graphs and paths, for each second of the film
@@ -241,7 +242,8 @@ def _arrows(sol: Solution, times: np.ndarray, forces: Any, scale: float) -> tupl
     if most <= NOTHING * scale:
         return [], []
     scaled = [each[:, :1] for each in found] + [each[:, 1:] / most for each in found]
-    return [each | {"scale": most} for each in described], scaled
+    of = shown("N")
+    return [each | {"scale": most, "unit": of.unit, "factor": of.factor} for each in described], scaled
 
 
 def _pin(layer: dict[str, Any], extent: float) -> float:
@@ -271,8 +273,13 @@ def _loads(sol: Solution, times: np.ndarray) -> list[dict[str, Any]]:
 
 def _loaded(sol: Solution) -> list[str]:
     """Measures that a film contains for clicks."""
-    names = [name for name in sol.measures if name.endswith((".force", ".torque"))]
+    names = [name for name in sol.measures if name.endswith((".force", ".torque")) and not name.startswith("ground.")]
     return names if len(names) <= MAX_LOADS else []
+
+
+def _in_display(load: dict[str, Any]) -> dict[str, Any]:
+    of = shown(load["unit"])
+    return load | {"unit": of.unit, "least": load["least"] * of.factor, "size": load["size"] * of.factor}
 
 
 def _packed(layer: dict[str, Any], box: tuple[np.ndarray, np.ndarray], label: str) -> dict[str, Any]:
@@ -303,7 +310,7 @@ def _packed(layer: dict[str, Any], box: tuple[np.ndarray, np.ndarray], label: st
             "vectors": int(is_vector[lists["moves"]].sum()), "points": _text(levels[:, lists["moves"]]),
             "carried": [[[numbers[k] for k in followers[i][0]], np.round(followers[i][1], 6).tolist()] for i in lists["carried"]],
             "fixed": [table[0, i].tolist() for i in lists["rests"]], "paths": [_path(path) for path in layer["paths"]],
-            "loads": layer["loads"]}
+            "loads": [_in_display(each) for each in layer["loads"]]}
 
 
 def _same(levels: np.ndarray, known: list[int], i: int) -> int | None:
@@ -347,7 +354,8 @@ def _trust(sol: Solution, times: np.ndarray, label: str) -> list[dict[str, Any]]
     for name, unit, values in (("position violation", "m", sol.position_violation), ("energy error", "J", sol.energy_violation)):
         if values is not None and np.size(values):
             values = np.abs(np.asarray(values, dtype=float)).reshape(len(sol.t), -1).max(axis=1)
-            found.append(_line(name, unit, sol.t, values, times, label))
+            of = shown(unit)
+            found.append(_line(name, of.unit, sol.t, values * of.factor, times, label))
     return found
 
 

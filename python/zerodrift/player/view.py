@@ -12,10 +12,11 @@ from pathlib import Path
 from typing import Any
 
 from .._private import checks
-from .._private.types import MeasureLike, Measures, Mechanism, Point
+from .._private.types import Display, MeasureLike, Measures, Mechanism, Point
 from ..errors import WrongType, WrongValue, ZerodriftError
 from ..runs.samples.solution import A_SOLUTION, Solution
 from ..systems.base import Makes
+from ..units import displayed
 from .page import Page, document, text
 from .scene import Wanted, scene
 
@@ -145,10 +146,11 @@ def of_solution(solution: Solution, text: str) -> str:
     return words
 
 
+@displayed
 def view(*solutions: Solution | Mechanism, forces: bool | Sequence[Any] = False,
          path: str | Point | Sequence[str | Point] = (), graphs: MeasureLike | Measures = (), names: bool = False,
          speed: float | None = None, labels: Sequence[str] | None = None, live: bool = False,
-         sliders: Mapping[str, tuple[float, float]] | None = None) -> Any:
+         sliders: Mapping[str, tuple[float, float]] | None = None, display: Display | None = None) -> Any:
     """Film of one motion, or of several over each other, for notebooks and browsers.
 
     Play, pause and step with the space bar and the arrow keys; the slider is the time. Below it are the position violation and
@@ -181,6 +183,8 @@ def view(*solutions: Solution | Mechanism, forces: bool | Sequence[Any] = False,
         With ``live=True``: parameters and motors of the mechanism, with smallest and largest values, such as
         ``{"rod.length": (0.8, 1.2), "drive.speed": (0, 10)}``. By default some lengths, a spring, a mass,
         gravity, and all motors.
+    display : dict of str to str, optional
+        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
 
     Returns
     -------

@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from .. import units
 from .._private import checks
 from .._private.gateway import Variable
-from .._private.types import Names
+from .._private.types import Display, Names
 from ..errors import WrongValue
-from ..runs.samples.columns import columns
+from ..runs.samples.columns import columns, in_display
 from ..runs.samples.solution import A_SOLUTION, Solution
 from ..studies.compare import difference, signals
 from ..studies.reference import Reference
@@ -20,7 +21,9 @@ from . import style as _style
 from .dense_samples import dense
 
 
-def motion(sol: Solution, names: str | Sequence[str] | None = None, ax: Axes | None = None, **style: Any) -> Axes:
+@units.displayed
+def motion(sol: Solution, names: str | Sequence[str] | None = None, ax: Axes | None = None, *, display: Display | None = None,
+           **style: Any) -> Axes:
     """Draw coordinates and velocities over time.
 
     Parameters
@@ -31,6 +34,8 @@ def motion(sol: Solution, names: str | Sequence[str] | None = None, ax: Axes | N
         Names of coordinates and velocities; by default all coordinates.
     ax : Axes, optional
         Axes to draw into; by default those of a new figure.
+    display : dict of str to str, optional
+        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
     **style
         Further arguments of ``ax.plot``.
 
@@ -48,13 +53,20 @@ def motion(sol: Solution, names: str | Sequence[str] | None = None, ax: Axes | N
     """
     sol = _with_samples_of_lines(checks.instance("sol", sol, Solution, A_SOLUTION), style)
     values, variables = signals(sol, names)
-    ax = _style.axes(ax)
-    units = _style.units(variables)
-    for column, variable in zip(values.T, variables, strict=True):
-        ax.plot(sol.t, column, **{"label": variable.name if len(units) == 1 else _style.labelled(variable)} | style)
-    if len(variables) == 1 and "label" not in style:
+    return _drawn(sol, [in_display(*variable, column) for variable, column in zip(variables, values.T, strict=True)], ax,
+                  style)
+
+
+def _drawn(sol: Solution, found: list[tuple[Variable, np.ndarray]], ax: Axes | None, style: dict[str, Any]) -> Axes:
+    """Lines over time, in units of display."""
+    ax, t = _style.axes(ax), _style.time(sol)
+    variables = [variable for variable, _ in found]
+    different = _style.units(variables)
+    for variable, values in found:
+        ax.plot(t, values, **{"label": _style.labelled(variable, len(different))} | style)
+    if len(found) == 1 and "label" not in style:
         return _style.finished(ax, _style.labelled(variables[0]), legend=False)
-    return _style.finished(ax, ", ".join(units))
+    return _style.finished(ax, ", ".join(different))
 
 
 def _with_samples_of_lines(sol: Solution, style: dict[str, Any]) -> Solution:
@@ -62,7 +74,8 @@ def _with_samples_of_lines(sol: Solution, style: dict[str, Any]) -> Solution:
     return sol if style.get("marker") else dense(sol)
 
 
-def measures(sol: Solution, names: Names, ax: Axes | None = None, **style: Any) -> Axes:
+@units.displayed
+def measures(sol: Solution, names: Names, ax: Axes | None = None, *, display: Display | None = None, **style: Any) -> Axes:
     """Draw measures, coordinates, velocities or multipliers over time, a line for each component; reactions, for example.
 
     Parameters
@@ -70,9 +83,11 @@ def measures(sol: Solution, names: Names, ax: Axes | None = None, **style: Any) 
     sol : Solution
         Data.
     names : str, measure, or sequence of these
-        As in ``sol[name]``: ``["pin.force", crank.angle]``.
+        As in ``sol[name]``: ``["pin.force", crank.angle]``; ``[("pin.force", "crank")]`` is a vector in the axes of a body.
     ax : Axes, optional
         Axes to draw into; by default those of a new figure.
+    display : dict of str to str, optional
+        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
     **style
         Further arguments of ``ax.plot``.
 
@@ -94,19 +109,12 @@ def measures(sol: Solution, names: Names, ax: Axes | None = None, **style: Any) 
     'N, rad'
     """
     sol = _with_samples_of_lines(checks.instance("sol", sol, Solution, A_SOLUTION), style)
-    found = columns(sol, names)
-    ax = _style.axes(ax)
-    variables = [variable for variable, _ in found]
-    units = _style.units(variables)
-    for variable, values in found:
-        ax.plot(sol.t, values, **{"label": variable.name if len(units) == 1 else _style.labelled(variable)} | style)
-    if len(found) == 1 and "label" not in style:
-        return _style.finished(ax, _style.labelled(variables[0]), legend=False)
-    return _style.finished(ax, ", ".join(units))
+    return _drawn(sol, columns(sol, names), ax, style)
 
 
+@units.displayed
 def violation(sol: Solution, ax: Axes | None = None, *, positions: bool = True, velocities: bool = True,
-              **style: Any) -> Axes:
+              display: Display | None = None, **style: Any) -> Axes:
     """Draw the largest position and velocity violation over time, on a logarithmic scale.
 
     Exact zeros, which a logarithmic scale cannot show, are triangles at its lower edge.
@@ -119,6 +127,8 @@ def violation(sol: Solution, ax: Axes | None = None, *, positions: bool = True, 
         Axes to draw into; by default those of a new figure.
     positions, velocities : bool
         Violations to draw.
+    display : dict of str to str, optional
+        Units of the time by quantity, as of `zerodrift.display_units`; left out: those of the session.
     **style
         Further arguments of ``ax.plot``.
 
@@ -150,12 +160,13 @@ def violation(sol: Solution, ax: Axes | None = None, *, positions: bool = True, 
         raise WrongValue(f"the system must have these constraints, of which {sol.system.name} has none", "not-available")
     ax = _style.axes(ax)
     for values, label in lines:
-        _style.log_line(ax, sol.t, np.abs(values).max(axis=1), **{"label": label} | style)
+        _style.log_line(ax, _style.time(sol), np.abs(values).max(axis=1), **{"label": label} | style)
     several = len(lines) > 1
     return _style.finished(ax, "constraint violation" if several else lines[0][1], legend=several or "label" in style)
 
 
-def energy(sol: Solution, ax: Axes | None = None) -> Axes:
+@units.displayed
+def energy(sol: Solution, ax: Axes | None = None, *, display: Display | None = None) -> Axes:
     """Draw kinetic and potential energy, their sum, and the energy put in, if any was.
 
     Parameters
@@ -164,6 +175,8 @@ def energy(sol: Solution, ax: Axes | None = None) -> Axes:
         Data.
     ax : Axes, optional
         Axes to draw into; by default those of a new figure.
+    display : dict of str to str, optional
+        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
 
     Returns
     -------
@@ -182,16 +195,18 @@ def energy(sol: Solution, ax: Axes | None = None) -> Axes:
     ['T', 'V', 'E = T + V']
     """
     potential, put_in, _ = _energies(sol)
-    ax = _style.axes(ax)
-    ax.plot(sol.t, sol.kinetic_energy, label="T")
-    ax.plot(sol.t, potential, label="V")
-    ax.plot(sol.t, sol.kinetic_energy + potential, label="E = T + V")
+    ax, t, of = _style.axes(ax), _style.time(sol), units.shown("J")
+    ax.plot(t, of.factor * sol.kinetic_energy, label="T")
+    ax.plot(t, of.factor * potential, label="V")
+    ax.plot(t, of.factor * (sol.kinetic_energy + potential), label="E = T + V")
     if put_in.any():
-        ax.plot(sol.t, put_in, "--", label="energy input")
-    return _style.finished(ax, "energy [J]")
+        ax.plot(t, of.factor * put_in, "--", label="energy input")
+    return _style.finished(ax, f"energy [{of.unit}]")
 
 
-def energy_violation(sol: Solution, ax: Axes | None = None, *, log: bool = False, **style: Any) -> Axes:
+@units.displayed
+def energy_violation(sol: Solution, ax: Axes | None = None, *, log: bool = False, display: Display | None = None,
+                     **style: Any) -> Axes:
     """Draw the violation of the energy balance, (28), over time.
 
     Parameters
@@ -202,6 +217,8 @@ def energy_violation(sol: Solution, ax: Axes | None = None, *, log: bool = False
         Axes to draw into; by default those of a new figure.
     log : bool
         True: draw its magnitude on a logarithmic scale, exact zeros as triangles on the lower edge.
+    display : dict of str to str, optional
+        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
     **style
         For ``ax.plot``; a label adds a legend.
 
@@ -222,13 +239,15 @@ def energy_violation(sol: Solution, ax: Axes | None = None, *, log: bool = False
     'energy violation [J]'
     """
     *_, violation = _energies(sol)
-    ax = _style.axes(ax)
-    _style.line(ax, sol.t, violation, log, **style)
-    return _style.finished(ax, f"{'|energy violation|' if log else 'energy violation'} [J]", legend="label" in style)
+    ax, of = _style.axes(ax), units.shown("J")
+    _style.line(ax, _style.time(sol), of.factor * violation, log, **style)
+    return _style.finished(ax, f"{'|energy violation|' if log else 'energy violation'} [{of.unit}]", legend="label" in style)
 
 
+@units.displayed
 def error(sol: Solution, reference: Solution | Reference | Callable[[float], Any],
-          names: str | Sequence[str] | None = None, ax: Axes | None = None, *, log: bool = False, **style: Any) -> Axes:
+          names: str | Sequence[str] | None = None, ax: Axes | None = None, *, log: bool = False,
+          display: Display | None = None, **style: Any) -> Axes:
     """Draw solution minus reference over time.
 
     Parameters
@@ -244,6 +263,8 @@ def error(sol: Solution, reference: Solution | Reference | Callable[[float], Any
         Axes to draw into; by default those of a new figure.
     log : bool
         True: draw magnitudes on a logarithmic scale, exact zeros as triangles on the lower edge.
+    display : dict of str to str, optional
+        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
     **style
         Further arguments of ``ax.plot``.
 
@@ -264,12 +285,13 @@ def error(sol: Solution, reference: Solution | Reference | Callable[[float], Any
     >>> ax.get_ylabel()
     'error of x [m]'
     """
-    values, variables = difference(sol, reference, names), signals(sol, names)[1]
-    ax = _style.axes(ax)
-    units = _style.units(variables)
-    for column, variable in zip(values.T, variables, strict=True):
-        _style.line(ax, sol.t, column, log, **{"label": variable.name if len(units) == 1 else _style.labelled(variable)} | style)
-    subject = f" of {_style.labelled(variables[0])}" if len(variables) == 1 else f" [{', '.join(units)}]"
+    values, of = difference(sol, reference, names), signals(sol, names)[1]
+    found = [in_display(*variable, column) for variable, column in zip(of, values.T, strict=True)]
+    ax, t, variables = _style.axes(ax), _style.time(sol), [variable for variable, _ in found]
+    different = _style.units(variables)
+    for variable, column in found:
+        _style.line(ax, t, column, log, **{"label": _style.labelled(variable, len(different))} | style)
+    subject = f" of {_style.labelled(variables[0])}" if len(variables) == 1 else f" [{', '.join(different)}]"
     return _style.finished(ax, ("|error|" if log else "error") + subject, legend=len(variables) > 1 or "label" in style)
 
 

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from .. import units
 from .._private import checks
 from .._private.gateway import Variable
-from .._private.types import ArrayLike, MeasureLike
+from .._private.types import ArrayLike, Display, MeasureLike
 from ..ensembles.result import Ensemble
 from ..errors import WrongValue
 from . import style as _style
@@ -20,7 +21,9 @@ AN_ENSEMBLE = "what zd.ensemble returns"
 CROSS: dict[str, Any] = {"color": "#B22222", "markersize": 3, "markeredgewidth": 0.8}      # of runs that failed
 
 
-def bands(ens: Ensemble, name: MeasureLike, quantiles: Sequence[float] = QUANTILES, ax: Axes | None = None, **style: Any) -> Axes:
+@units.displayed
+def bands(ens: Ensemble, name: MeasureLike, quantiles: Sequence[float] = QUANTILES, ax: Axes | None = None, *,
+          display: Display | None = None, **style: Any) -> Axes:
     """Draw how an output spreads over time: areas between quantiles of all runs, and a line at the middle one.
 
     Runs count as long as they have rows.
@@ -36,6 +39,8 @@ def bands(ens: Ensemble, name: MeasureLike, quantiles: Sequence[float] = QUANTIL
         their number is odd, the middle one is a line.
     ax : Axes, optional
         Left out: a new figure.
+    display : dict of str to str, optional
+        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
     **style
         For ``ax.plot`` of the line; ``color`` is that of the areas, too, and ``label`` stands for all of it.
 
@@ -74,15 +79,16 @@ def bands(ens: Ensemble, name: MeasureLike, quantiles: Sequence[float] = QUANTIL
     if "label" in style:        # which stands for all of it
         labels = [None if has_line or i else style["label"] for i in range(pairs)]
     for i, label in enumerate(labels):
-        ax.fill_between(ens.t, found[i], found[-1 - i], color=color, alpha=0.5 * (i + 1) / (pairs + 1) + 0.05, linewidth=0,
-                        label=label)
+        ax.fill_between(_style.time(ens), found[i], found[-1 - i], color=color, alpha=0.5 * (i + 1) / (pairs + 1) + 0.05,
+                        linewidth=0, label=label)
     if has_line:
-        ax.plot(ens.t, found[pairs], **{"color": color, "label": _level(levels[pairs])} | style)
+        ax.plot(_style.time(ens), found[pairs], **{"color": color, "label": _level(levels[pairs])} | style)
     return _style.finished(ax, _style.labelled(variable))
 
 
+@units.displayed
 def against(ens: Ensemble, parameter: str, of: MeasureLike | ArrayLike | None = None, ax: Axes | None = None, *,
-            at: float | None = None, color_by: str | None = None, **style: Any) -> Axes:
+            at: float | None = None, color_by: str | None = None, display: Display | None = None, **style: Any) -> Axes:
     """Draw a result of each run against one of its parameters; runs that failed are crosses on the lower edge.
 
     Parameters
@@ -99,6 +105,8 @@ def against(ens: Ensemble, parameter: str, of: MeasureLike | ArrayLike | None = 
         The time in s at which an output is taken; left out: the last row of each run.
     color_by : str, optional
         Another parameter, which colours the points.
+    display : dict of str to str, optional
+        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
     **style
         For ``ax.scatter``; ``label`` names a number of each run on the axis.
 
@@ -129,8 +137,9 @@ def against(ens: Ensemble, parameter: str, of: MeasureLike | ArrayLike | None = 
     return ax
 
 
+@units.displayed
 def heat_map(ens: Ensemble, of: MeasureLike | ArrayLike | None = None, ax: Axes | None = None, *, at: float | None = None,
-             **style: Any) -> Axes:
+             display: Display | None = None, **style: Any) -> Axes:
     """Draw what each run comes to over a grid of two parameters, as colours; runs that failed are crossed out.
 
     Parameters
@@ -143,6 +152,8 @@ def heat_map(ens: Ensemble, of: MeasureLike | ArrayLike | None = None, ax: Axes 
         Left out: a new figure.
     at : float, optional
         The time in s at which an output is taken; left out: the last row of each run.
+    display : dict of str to str, optional
+        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
     **style
         For ``ax.pcolormesh``; ``label`` names a number of each run beside the colours.
 
@@ -193,7 +204,9 @@ def _output(ens: Any, name: Any) -> tuple[Any, Variable]:
     values, name = ens[name], getattr(name, "name", name)
     if (values.ndim if ens.t is not None else values[0].ndim + 1) != 2:
         raise WrongValue(f"{name} is a vector, and only one of its components can be drawn: {name + '.x'!r}", "wrong-measure")
-    return values, Variable(name, ens.units.get(name) or ens.units.get(name.rpartition(".")[0], ""))
+    of = units.shown(ens.units.get(name) or ens.units.get(name.rpartition(".")[0], ""))
+    shown = values if of.factor == 1 else values * of.factor if ens.t is not None else [each * of.factor for each in values]
+    return shown, Variable(name, of.unit)
 
 
 def _numbers(ens: Any, of: Any, at: float | None, style: dict[str, Any]) -> tuple[np.ndarray, str]:
@@ -203,7 +216,7 @@ def _numbers(ens: Any, of: Any, at: float | None, style: dict[str, Any]) -> tupl
     if isinstance(of, str) or hasattr(of, "name"):
         values, variable = _output(ens, of)
         found = _at(ens, values, at)
-        return found, label or _style.labelled(variable) + (f" at t = {at:g} s" if at is not None else " at the end")
+        return found, label or _style.labelled(variable) + (" at the end" if at is None else _at_time(at))
     found = ens.values if of is None else checks.real("of must hold", of)
     if not isinstance(found, np.ndarray) or found.shape != (len(ens),):
         given = f"what reduce returned, {checks.shown(ens.values)}," if of is None else f"of, {checks.shown(of)},"
@@ -225,11 +238,16 @@ def _parameter(ens: Any, name: str) -> np.ndarray:
     values = ens.parameters[checks.choice("parameter", name, ens.parameters)]
     if values.ndim != 1:
         raise WrongValue(f"parameter {name!r} has several entries in each run, and only scalars can be drawn", "wrong-measure")
-    return values
+    return values * units.shown(ens.units.get(name, "")).factor
 
 
 def _labelled(ens: Any, name: str) -> str:
-    return _style.labelled(Variable(name, ens.units.get(name, "")))
+    return _style.labelled(Variable(name, units.shown(ens.units.get(name, "")).unit))
+
+
+def _at_time(at: float) -> str:
+    of = units.shown("s")
+    return f" at t = {at * of.factor:g} {of.unit}"
 
 
 def _level(level: float) -> str:

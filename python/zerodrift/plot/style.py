@@ -13,6 +13,7 @@ from matplotlib.rcsetup import cycler
 
 from .._private import checks
 from .._private.gateway import Variable
+from ..units import shown
 
 # Okabe and Ito's colours, told apart with any colour vision, dark ones first; the last six are Tol's wine, olive, indigo, teal,
 # green and purple. Each integrator has one; the last two are for those to come.
@@ -53,8 +54,13 @@ def styled(ax: Axes) -> Axes:
     return ax
 
 
+def time(sol: Any) -> np.ndarray:
+    """Times of a solution or an ensemble in the unit of display."""
+    return shown("s").factor * sol.t
+
+
 def finished(ax: Axes, ylabel: str, *, legend: bool = True) -> Axes:
-    ax.set_xlabel("t [s]")
+    ax.set_xlabel(f"t [{shown('s').unit}]")
     ax.set_ylabel(ylabel)
     if legend:
         legend_above(ax)
@@ -104,8 +110,9 @@ def units(variables: Sequence[Variable]) -> list[str]:
     return list(dict.fromkeys(variable.unit or "1" for variable in variables))
 
 
-def labelled(variable: Variable) -> str:
-    return f"{variable.name} [{variable.unit}]" if variable.unit else variable.name
+def labelled(variable: Variable, units: int = 2) -> str:
+    """Name with the unit, or alone where all have one unit."""
+    return f"{variable.name} [{variable.unit}]" if variable.unit and units > 1 else variable.name
 
 
 def with_unit(symbol: str, variables: Sequence[Variable]) -> str:

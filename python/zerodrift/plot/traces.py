@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from .. import units
 from .._private import checks
-from .._private.gateway import Variable
-from .._private.types import ArrayLike, Names, Points
+from .._private.types import ArrayLike, Display, Names, Points
 from ..errors import WrongIndex, WrongType, WrongValue
 from ..mechanisms.elements.measures import name_of
 from ..tracing.trace_result import Trace
@@ -20,10 +20,11 @@ from .mechanism import Extras, Picture
 
 A_TRACE = "a Trace, as zd.trace returns it"
 OTHERS = 8              # positions besides the first
-DEGREES = {"rad": "°"}
 
 
-def trace(traced: Trace, names: Names, ax: Axes | None = None, *, degrees: bool = False, **style: Any) -> Axes:
+@units.displayed
+def trace(traced: Trace, names: Names, ax: Axes | None = None, *, degrees: bool = False,
+          display: Display | None = None, **style: Any) -> Axes:
     """Draw measures over the measure that was traced; dead points that were passed are circles.
 
     Parameters
@@ -31,11 +32,13 @@ def trace(traced: Trace, names: Names, ax: Axes | None = None, *, degrees: bool 
     traced : Trace
         Result of `zerodrift.trace`.
     names : str or measure, or a sequence of them
-        Scalar measures of positions.
+        Scalar measures of positions; of a trace with forces also components of these, and "effort".
     ax : Axes, optional
         Left out: a new figure.
     degrees : bool
         True: draw angles in degrees.
+    display : dict of str to str, optional
+        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
     **style
         For ``ax.plot``.
 
@@ -60,23 +63,23 @@ def trace(traced: Trace, names: Names, ax: Axes | None = None, *, degrees: bool 
     """
     checks.instance("traced", traced, Trace, A_TRACE)
     checks.instance("degrees", degrees, bool, "True or False")
-    units, ax = [], _style.axes(ax)
+    different, ax, along = [], _style.axes(ax), _shown(traced.unit, degrees)
     several = [names] if isinstance(names, str) or not isinstance(names, Sequence) else list(names)
     for name in several:
-        variable = Variable(name_of(name, "each of names"), traced.unit_of(name))
-        values = traced[name]
+        called = name_of(name, "each of names")
+        of, values = _shown(traced.unit_of(name), degrees), traced[name]
         if values.ndim != 1:
-            raise WrongValue(f"each of names must be a scalar, and {variable.name!r} has components; plot.positions draws paths",
-                             "wrong-measure")
-        (line,) = ax.plot(_shown(traced.values, traced.unit, degrees), _shown(values, variable.unit, degrees),
-                          **{"label": variable.name} | style)
+            raise WrongValue(f"each of names must be a scalar, and {called!r} has components; plot.positions "
+                             "draws paths", "wrong-measure")
+        (line,) = ax.plot(traced.values * along.factor, values * of.factor, **{"label": called} | style)
         dead = np.array([point.before for point in traced.dead_points], dtype=int)
-        ax.plot(_shown(np.array([point.value for point in traced.dead_points]), traced.unit, degrees),
-                _shown(values[dead], variable.unit, degrees), "o", color=line.get_color(), markerfacecolor="white")
-        units.append(_unit(variable.unit, degrees))
-    label = f"{name_of(several[0], 'names')} [{units[0]}]" if len(several) == 1 else f"[{', '.join(dict.fromkeys(units))}]"
+        ax.plot(np.array([point.value for point in traced.dead_points]) * along.factor, values[dead] * of.factor, "o",
+                color=line.get_color(), markerfacecolor="white")
+        different.append(of.unit)
+    all_units = f"[{', '.join(dict.fromkeys(different))}]"
+    label = f"{name_of(several[0], 'names')} {all_units}" if len(several) == 1 else all_units
     _style.finished(ax, label, legend=len(several) > 1)
-    ax.set_xlabel(f"{traced.measure} [{_unit(traced.unit, degrees)}]")
+    ax.set_xlabel(f"{traced.measure} [{along.unit}]")
     return ax
 
 
@@ -133,9 +136,5 @@ def _places(at: Any, count: int) -> np.ndarray:
     return places
 
 
-def _unit(unit: str, degrees: bool) -> str:
-    return DEGREES.get(unit, unit) if degrees else unit
-
-
-def _shown(values: np.ndarray, unit: str, degrees: bool) -> np.ndarray:
-    return np.degrees(values) if degrees and unit in DEGREES else values
+def _shown(unit: str, degrees: bool) -> units.Shown:
+    return units.Shown("°", 180 / np.pi) if degrees and unit == "rad" else units.shown(unit)

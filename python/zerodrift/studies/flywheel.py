@@ -15,7 +15,7 @@ from .._private import checks
 from .._private.types import MeasureLike, SystemLike
 from ..errors import WrongType, WrongValue, ZerodriftError
 from ..mechanisms.elements.bodies import Body
-from ..mechanisms.elements.forces import Actuator, Motor, Torque
+from ..mechanisms.elements.forces import Torque
 from ..mechanisms.elements.joints import Joint
 from ..mechanisms.elements.measures import name_of
 from ..mechanisms.elements.user_functions import Law
@@ -160,8 +160,7 @@ class _Machine:
         self.rate = f"{owner}.speed" if isinstance(drawing.elements[owner], Joint) else f"{owner}.angular_velocity"
         self.angle = float(Instant(system)[name])
         drive = Torque(DRIVE, body, drawing.ground, Law("torque", 0.0), axis=axis, frame=None if axis is None else drawing.ground)
-        elements = {key: each for key, each in drawing.elements.items()
-                    if not (isinstance(each, Motor | Actuator) and each.prescribes)}
+        elements = drawing.without_drives().elements
         held = {key: value for key, value in drawing.held.items() if not is_rate(key, drawing.elements)}
         drawing = drawing._replace(elements={**elements, DRIVE: drive}, held=held, is_balanced=False)
         self.system = MechanismSystem(drawing, system.layout, system._changed, system._compiled)

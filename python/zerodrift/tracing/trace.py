@@ -20,8 +20,8 @@ from .trace_result import DeadPoint, Reach, Trace
 
 
 def trace(system: SystemLike, measure: MeasureLike, values: ArrayLike | None = None, *, hold: Values | Measures = (),
-          through: bool = False, count: int = 361) -> Trace:
-    """The positions of a mechanism at given values of a measure, such as the angles of its crank; no forces, no time.
+          through: bool = False, count: int = 361, forces: bool = False) -> Trace:
+    """The positions of a mechanism at given values of a measure, such as the angles of its crank; without time.
 
     All positions lie on the branch on which the mechanism starts, as drawn or as `start` says: it is followed in small steps.
     Motors and actuators that prescribe a motion are left out, as the measure takes their place.
@@ -42,6 +42,9 @@ def trace(system: SystemLike, measure: MeasureLike, values: ArrayLike | None = N
         the values after it are on the branch beyond it. False: all values lie between the same two dead points.
     count : int
         Number of positions where values are left out, besides dead points.
+    forces : bool
+        True: the trace has the forces of a mechanism at rest in each position, too: ``trace["pin.force"]``, and as
+        ``trace["effort"]`` the one along `measure` that holds it there, in N or N m.
 
     Returns
     -------
@@ -78,9 +81,13 @@ def trace(system: SystemLike, measure: MeasureLike, values: ArrayLike | None = N
     motion = Motion(system, name_of(measure, "measure"), hold)
     checks.instance("through", through, (bool, np.bool_), "True or False")
     count = checks.count("count", count, least=2)
-    if values is None:
-        return _whole(motion, count)
-    values = _values(values)
+    checks.instance("forces", forces, (bool, np.bool_), "True or False")
+    traced = _whole(motion, count) if values is None else _at(motion, _values(values), through)
+    return traced.with_forces([motion.measure, *hold]) if forces else traced
+
+
+def _at(motion: Motion, values: np.ndarray, through: bool) -> Trace:
+    """Trace at given values."""
     met = (walk.through if through else walk.on_one_side)(motion, values)
     x, slopes = motion.curve.positions(met.segments, values)
     dead = [_dead_point(motion, knot, place) for knot, place in met.dead]

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .._private import checks
+from ..analysis.effort_result import Efforts
+from ..analysis.inverse_dynamics import inverse_dynamics
 from ..errors import WrongName
 from ..mechanisms.elements.measures import name_of
 from ..mechanisms.system import MechanismSystem
@@ -49,6 +51,8 @@ class Trace:
         Their derivatives by the measure; infinite at dead points.
     dead_points : tuple of DeadPoint
         Dead points that were passed, in order.
+    efforts : Efforts or None
+        Forces of the mechanism at rest in each position, if they were wanted.
     """
 
     system: MechanismSystem
@@ -58,6 +62,7 @@ class Trace:
     p: np.ndarray
     slopes: np.ndarray
     dead_points: tuple[DeadPoint, ...]
+    efforts: Efforts | None = None
 
     def __post_init__(self) -> None:
         for array in (self.values, self.p, self.slopes, *(dead.p for dead in self.dead_points)):
@@ -67,7 +72,7 @@ class Trace:
         return len(self.values)
 
     def __getitem__(self, name: Any) -> np.ndarray:
-        """A measure of positions at every position.
+        """A measure of positions at every position; of a trace with forces also one of these, or "effort".
 
         Parameters
         ----------
@@ -89,6 +94,8 @@ class Trace:
         >>> turn["rocker.angle"].shape, turn["P.position"].shape
         ((361,), (361, 2))
         """
+        if self.efforts is not None and (held := self._force(name_of(name, "name"))) is not None:
+            return held
         place, core = self._find(name), self.system._measuring
         zeros = np.zeros((len(self), core.nv))
         return place.pick(core.measure(place.number, np.zeros(len(self)), self.p, zeros))
@@ -125,8 +132,26 @@ class Trace:
         return place.pick(values)
 
     def unit_of(self, name: Any) -> str:
-        """The unit of a measure of positions."""
+        """The unit of a measure that the trace has."""
+        if self.efforts is not None and name_of(name, "name") == "effort":
+            return {"rad": "N m", "m": "N"}[self.unit]
+        if self.efforts is not None:
+            return self.system._unit_of_measure(name_of(name, "name"))
         return self.system._measuring.measures[self._find(name).number].unit
+
+    def with_forces(self, along: list[str]) -> Trace:
+        """The same with the forces of the mechanism at rest, held along these measures."""
+        system, rest = self.system._without_drives(), np.zeros((len(self), self.system.nv))
+        return replace(self, efforts=inverse_dynamics(system, np.zeros(len(self)), self.p, rest, rest, efforts=along))
+
+    def _force(self, name: str) -> np.ndarray | None:
+        """A force by its name; None: it is a measure of positions, or nothing."""
+        assert self.efforts is not None
+        if name == "effort":
+            return self.efforts.efforts[self.measure]
+        place = self.system._watching.find(name)
+        depends = place and self.system._measuring.measure_depends(place.number)
+        return self.efforts[name] if depends == "accelerations" else None
 
     def _find(self, name: Any) -> Any:
         """Index and component of a measure of positions."""
@@ -137,7 +162,8 @@ class Trace:
                             "wrong-name")
         depends = self.system._measuring.measure_depends(place.number)
         if depends != "positions":
-            hint = "; derivative() of a position has its ratio to that of the traced measure" if depends == "velocities" else ""
+            hint = ("; derivative() of a position has its ratio to that of the traced measure" if depends == "velocities" else
+                    "; forces=True adds those at rest")
             raise WrongName(f"{name!r} depends on {depends}, and a trace has positions alone{hint}", "not-available")
         return place
 

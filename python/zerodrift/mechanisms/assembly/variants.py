@@ -54,7 +54,7 @@ def varied(drawing: Drawing, changed: Mapping[str, float], parameters: Mapping[s
         moving, drawn = tables.written(*read(tables)), absolute.written(quantities, observed)
     except Varies:
         return None
-    has_its_measures = [row[1:] for row in moving.measures] == [row[1:] for row in core.measures]
+    has_its_measures = [row[1:-1] for row in moving.measures] == [row[1:-1] for row in core.measures]
     if absolute.relation_names != tables.relation_names or not has_its_measures:
         return None
     poses[wrong] = np.nan

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from ...errors import WrongValue
 from ..elements.bodies import Body, Link, Particle, Point
 from ..elements.frames import Pose, Pose3, given_rotation, perpendicular
 from ..elements.immutable import Fixed
+from ..elements.own_measures import Group
 from ..elements.space_bodies import SpaceBody, SpaceLink, SpaceParticle, tensor
 from .registry import Elements
 
@@ -186,6 +188,41 @@ class BodyVerbs(Elements):
             attachment = self._point("at", at)
             return self._add(made(name, attachment.drawn, mass, attachment))
         return self._add(made(name, checks.vector(f"at of {name!r}", at, self.dimension), mass))
+
+    def group(self, name: str, bodies: Iterable[Body | str]) -> Group:
+        """Measure bodies together.
+
+        Parameters
+        ----------
+        name : str
+            For the measures ``"name.center.position"``, ``"name.center.velocity"``, ``"name.momentum"`` and
+            ``"name.angular_momentum"``, which is about the drawing's origin.
+        bodies : iterable of Body or name
+
+        Returns
+        -------
+        Group
+
+        Raises
+        ------
+        ValueError, TypeError
+            If the name is taken, a body is none of the mechanism's, or all together have no mass.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("throw", gravity=(0, -9.81))
+        >>> stones = [m.particle(f"stone{i}", 1.0 + i, at=(i, 0)) for i in range(2)]
+        >>> both = m.group("both", stones)
+        >>> zd.simulate(m, 1.0)[both.center.position][-1].round(9).tolist()
+        [0.666666667, -4.905]
+        """
+        name = self._new_name(name, "group")
+        given = [bodies] if isinstance(bodies, Body | str) else checks.instance("bodies", bodies, Iterable, "bodies or names")
+        found = tuple(dict.fromkeys(self._body(f"bodies of {name!r}", each) for each in given))
+        if self.ground in found or not sum(body.mass for body in found):
+            raise WrongValue(f"bodies of group {name!r} must have mass, and be others than the ground", "wrong-element")
+        return self._add(Group(name, found))
 
     def point(self, name: str, body: Body | str, local: ArrayLike | None = None, *, at: ArrayLike | Point | None = None) -> Point:
         """Add a named point to a body, as ``body.point(local, at=at, name=name)`` does.

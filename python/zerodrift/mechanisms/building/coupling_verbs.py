@@ -13,7 +13,7 @@ from ..elements.joints import Coupling, Joint, Teeth
 from ..elements.measures import Measure, name_of
 from ..elements.numbers import AS_GIVEN
 from ..equations.measure_names import checked_reading
-from ..equations.teeth import mesh
+from ..loads.teeth import mesh
 from .periodic_spline import periodic_spline
 from .registry import Elements
 
@@ -135,7 +135,7 @@ class CouplingVerbs(Elements):
         effort = "torque" if all("ang" in base or "rotation" in base for base in bases) else "force"
         coupling = Coupling(name, kind, of, effort, **how)
         if coupling.teeth:
-            mesh(coupling, self._elements, coupling.ratio, AS_GIVEN)
+            mesh(coupling, self._elements, how["ratio"], AS_GIVEN)
         return self._add(coupling)
 
     def coupler(self, name: str, value: LawLike | Values, *, of: Bindings | None = None) -> Coupling:

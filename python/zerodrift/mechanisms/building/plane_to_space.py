@@ -249,6 +249,10 @@ def _own_measure(m: Any, measure: Any) -> None:
     m.measure(measure.name, unit=measure.unit, **_law(m, measure.law))
 
 
+def _group(m: Any, group: Any) -> None:
+    m.group(group.name, [body.name for body in group.bodies])
+
+
 LIFTED: dict[str, Callable[[Any, Any], None]] = {
     "body": _body, "link": _link, "particle": _particle, "point": _named_point,
     **dict.fromkeys(PLANE.keys() & BY_KIND, _joint), "revolute": _revolute, "slot": _slot, "rolling": _rolling,
@@ -256,4 +260,4 @@ LIFTED: dict[str, Callable[[Any, Any], None]] = {
     "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
     "motor": _motor, "actuator": _actuator, **{kind: _table_force for kind, force in FORCES.items() if 3 in force.entries},
     "bushing": _bushing, "force": _force, "torque": _torque, "measure": _own_measure,
-    "gravity": _gravity}
+    "gravity": _gravity, "group": _group}

@@ -13,7 +13,7 @@ from ...errors import WrongAttribute, WrongType
 from . import columns
 from .frames import Pose
 from .immutable import Fixed
-from .measures import scalar, vector
+from .measures import Measure, scalar, vector
 from .numbers import AS_GIVEN, Numbers
 
 
@@ -168,6 +168,8 @@ class Ground(Body):
     """The ground: it does not move; its frame is the drawing's."""
 
     what = "ground"
+    force = vector("force", "Sum of the forces on the ground, in the drawing's axes, in N.")
+    torque = vector("torque", "Their moment about the drawing's origin, in N m; in space a vector in its axes.", Measure)
 
     def __init__(self) -> None:
         super().__init__("ground", Pose(np.zeros(2), 0.0), 0.0, 0.0, np.zeros(2))

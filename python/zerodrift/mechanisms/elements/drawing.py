@@ -52,6 +52,11 @@ class Drawing(NamedTuple):
         """User functions of elements that act, which measures do not."""
         return [law for each in self.elements.values() if not isinstance(each, OwnMeasure) for law in each.laws.values()]
 
+    def without_drives(self) -> Drawing:
+        """The same without motors and actuators that prescribe a motion."""
+        others = {name: each for name, each in self.elements.items() if not getattr(each, "prescribes", False)}
+        return self._replace(elements=others)
+
     def parts(self) -> list[Body]:
         """Bodies with their own coordinates: without the ground and particles that are attached to others."""
         return [body for body in self.of(Body)

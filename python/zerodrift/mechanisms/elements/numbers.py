@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,11 @@ from ..._private import checks
 
 NOT_NEGATIVE = {"mass", "inertia", "stiffness", "damping", "torsion", "torsion_damping"}
 PRODUCTS = (".xy", ".xz", ".yz")        # of inertia: of either sign
+LINEAR = {"speed": "m/s", "damping": "N s/m", "stiffness": "N/m", "value": "N"}
+ANGULAR = {"speed": "rad/s", "damping": "N m s/rad", "stiffness": "N m/rad", "value": "N m"}
+UNITS = {"mass": "kg", "inertia": "kg m^2", "torque": "N m", "force": "N", "angle": "rad",
+         **dict.fromkeys("xyz", "m/s^2"),      # of gravity
+         **dict.fromkeys(("length", "radius", "thickness", "pitch", "displacement", "com", "local", "semiaxes"), "m")}
 
 
 class Numbers:
@@ -50,3 +55,17 @@ def is_right(path: str, value: float) -> bool:
     except ValueError:
         return False
     return True
+
+
+def parameter_units(names: Iterable[str], elements: Mapping[str, Any]) -> dict[str, str]:
+    """Units of parameters by their paths, as far as their last words tell them."""
+    found = {}
+    for name in names:
+        owner, _, path = name.partition(".")
+        element = elements.get(owner)
+        along = str(getattr(element, "coordinate", None) or "")
+        is_angle = along.startswith("angle") or getattr(element, "kind", "").startswith("tor")
+        unit = (ANGULAR if is_angle else LINEAR).get(path) or UNITS.get(path.partition(".")[0])
+        if unit and (element is not None or owner == "gravity"):
+            found[name] = unit
+    return found

@@ -18,6 +18,7 @@ from ..elements.forces import Actuator, Bushing
 from ..elements.joints import holds_angle, is_hinge
 from ..elements.space_joints import SpaceJoint, acceleration_of, has_torque, is_at_point, speeds
 from ..elements.table_forces import TableForce
+from ..loads.group_measures import group_measures
 from . import transmission
 from .measure_names import has_coordinate
 from .space_tables import SpaceTables
@@ -61,7 +62,7 @@ def read(tables: Tables, only: Collection[str] | None = None) -> tuple[list[Any]
                 OutputSpec(position.second_rate, f"{position.unit}/s^2", "accelerations", len(quantities), len(reads)))
         quantities += reads
     if wanted is None:
-        observed += [*_of_joints(tables), *tables.observed]
+        observed += [*_of_joints(tables), *tables.observed, *group_measures(tables, quantities)]
     return quantities, observed
 
 

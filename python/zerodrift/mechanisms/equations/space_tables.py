@@ -21,9 +21,9 @@ from ..elements.numbers import Numbers
 from ..elements.space_bodies import SpaceInertias
 from ..elements.space_joints import SpaceJoint, swivels
 from ..elements.table_forces import ROTATIONS, TableForce
+from ..loads.teeth import Side, Wrench
 from . import space_tree
 from .tables import Tables
-from .teeth import Side, Wrench
 from .tree import inboard_joints
 
 
@@ -124,6 +124,12 @@ class SpaceTables(Tables):
     def spin_quantities(self, body: Body) -> tuple[Quantity, ...]:
         """Marker quantities whose rates are the three components of a body's angular velocity in the drawing's axes."""
         return tuple(Quantity("spin", 0, self.number[body.name], a=axis) for axis in AS_DRAWN)
+
+    def principal_spins(self, body: Body, inertia: np.ndarray) -> Iterator[tuple[Quantity, float]]:
+        """Marker quantities whose rates are angular velocities about a body's own principal axes, with the moments of inertia."""
+        number, (moments, axes) = self.number[body.name], np.linalg.eigh(np.zeros((3, 3)) + inertia)
+        for moment, axis in zip(moments, axes.T, strict=True):
+            yield Quantity("spin", number, number, a=self._direction(body, axis)), float(moment)
 
     def rotation_quantities(self, body: Body) -> tuple[Quantity, ...]:
         """Marker quantities of a body's rotation, row by row: cosines between the drawing's axes and its own."""

@@ -22,9 +22,10 @@ from ..elements.joints import Coupling, Joint
 from ..elements.numbers import AS_GIVEN, Numbers
 from ..elements.own_measures import OwnMeasure
 from ..elements.table_forces import UNITS, TableForce, lengths, paths
-from . import function_calls, teeth, transmission
+from ..loads import teeth
+from . import function_calls, transmission
 from .measure_names import checked_reading, has_coordinate
-from .tree import Edge, ends, inboard_joints
+from .tree import Edge, ends, freedoms, inboard_joints
 
 ORIGIN = np.zeros(2)
 
@@ -112,7 +113,7 @@ class Tables:
         """Number of coordinates of the bodies along the tree."""
         hung = [(body, self.joints[inboard]) for body, inboard in zip(self.parts, self.inboard, strict=True) if inboard >= 0]
         free = sum(3 if body.turns else 2 for body, inboard in zip(self.parts, self.inboard, strict=True) if inboard < 0)
-        return free + sum(_freedoms(joint)[joint.bodies[1] is body] for body, joint in hung)
+        return free + sum(freedoms(joint)[joint.bodies[1] is body] for body, joint in hung)
 
     def _length(self) -> float:
         """Largest distance between ends of joints in the drawing without changed parameters, in m; 1 if there is none."""
@@ -134,7 +135,7 @@ class Tables:
 
     def tree(self, *, with_cut: bool = False) -> list[int]:
         """Inboard joint of each body, optionally counting joints that the user has cut."""
-        edges = [Edge(i, *ends(joint, self.number), _freedoms(joint))
+        edges = [Edge(i, *ends(joint, self.number), freedoms(joint))
                  for i, joint in enumerate(self.joints) if joint.row.inboard and (with_cut or not joint.cut)]
         weights = [(float(body.turns), self.inertias.of[body.name][0]) for body in self.parts]
         return inboard_joints(len(self.parts), edges, weights)
@@ -292,16 +293,9 @@ class Tables:
         if coupling.law is None:
             quantities = [self._quantity_of(name) for name in coupling.of]
             ratio = self.numbers(coupling, "ratio", coupling.ratio)
-            coefficients, row = [-ratio, 1.0], len(self.relations)
-            mesh = teeth.mesh(coupling, self.drawing.elements, ratio, self.numbers) if coupling.teeth else None
-            for side in mesh.sides if mesh else ():
-                self._add_teeth(coupling.name, side, quantities, coefficients)
+            coefficients = teeth.act(self, coupling, ratio, quantities)
             self._relation(coupling.name, entries.Relation(quantities, coefficients))
-            self._observe_coupling(coupling, len(quantities))
-            if mesh:
-                self.observed.append(OutputSpec(f"{coupling.name}.tooth_force", "N", "drive", row, 1, mesh.tangential,
-                                                len(quantities)))
-            return
+            return self._observe_coupling(coupling, len(quantities))
         quantities, picks = self._inputs(coupling.of)
         nonholonomic = coupling.kind == "nonholonomic"
         kind = function_calls.Nonholonomic if nonholonomic else function_calls.Holonomic
@@ -311,21 +305,8 @@ class Tables:
         self._relation(coupling.name, entries.Relation(quantities, nonholonomic=nonholonomic, law=self.laws.add(row)))
         self._observe_coupling(coupling, len(quantities))
 
-    def _add_teeth(self, name: str, side: teeth.Side, quantities: list[int], coefficients: list[Any]) -> None:
-        """Let a constraint act at the pitch point: add quantities that the wheel's bearing keeps at zero.
-
-        The separating force is added, too.
-        """
-        for i, (size, quantity) in enumerate(self._mesh_quantities(side, side.tooth)):
-            quantities.append(self._quantity(f"{name} {side.joint.name} tooth {i}", quantity))
-            coefficients.append(size)
-        for i, (size, quantity) in enumerate(self._mesh_quantities(side, side.separation)):
-            number = self._quantity(f"{name} {side.joint.name} separation {i}", quantity)
-            self.forces.append(entries.GeneralizedForce("separation", number, size, relation=len(self.relations),
-                                                        joint=self.joint_number[side.joint.name]))
-
     def _mesh_quantities(self, side: teeth.Side, wrench: teeth.Wrench) -> Iterator[tuple[float, Any]]:
-        """Marker quantities along which a wrench acts on a wheel at its bearing, with the components."""
+        """Marker quantities along which a wrench acts on a wheel at its bearing, with their components."""
         (first, point1), (second, point2) = self.place(side.on_carrier), self.place(side.on_wheel)
         if size := float(np.hypot(*wrench.force[:2])):
             yield size, Quantity("along", first, second, point1, point2, _pair(wrench.force[:2] / size))
@@ -413,13 +394,6 @@ class Tables:
         yield OutputSpec(f"{element.name}.force", "N", "force sum", index, size)
         turning = ("torque sum", index + size, len(self.forces) - index - size)
         yield OutputSpec(f"{element.name}.torque", "N m", *(turning if element.dimension == 3 else ("force value", index + size)))
-
-
-def _freedoms(joint: Joint) -> tuple[int, int]:
-    """Numbers of coordinates with which the joint is the inboard joint of its first body, and of its second."""
-    if joint.row.inboard == "turns":
-        return int(joint.bodies[0].turns), int(joint.bodies[1].turns)
-    return (0, 0) if joint.row.inboard == "fixed" else (1, 1)
 
 
 def _pair(vector: np.ndarray) -> tuple[float, float]:

@@ -80,3 +80,10 @@ def _way_down(inboard: Sequence[int], ends: Sequence[tuple[int, int]], body: int
         way.append((body, joint))
         body = 0 if joint < 0 else sum(ends[joint]) - body
     return [*way, (0, -1)]
+
+
+def freedoms(joint: Any) -> tuple[int, int]:
+    """Numbers of coordinates with which the joint is the inboard joint of its first body, and of its second."""
+    if joint.row.inboard == "turns":
+        return int(joint.bodies[0].turns), int(joint.bodies[1].turns)
+    return (0, 0) if joint.row.inboard == "fixed" else (1, 1)

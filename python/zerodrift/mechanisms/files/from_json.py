@@ -226,6 +226,10 @@ def _measure(m: Any, name: str, *, law: Any, unit: Any) -> None:
     m.measure(name, value, of=of, unit=unit)
 
 
+def _group(m: Any, name: str, *, bodies: Any) -> None:
+    m.group(name, checks.instance("bodies", bodies, list, "a list of names"))
+
+
 def _gravity(m: Any, name: str, *, laws: Any) -> None:
     checks.choice("the name of gravity", name, (Gravity.name,))
     if [*laws] != [*"xyz"[:m.dimension]]:
@@ -278,6 +282,7 @@ MADE: dict[str, Callable[..., None]] = {
     "body": _body, "link": _link, "particle": _particle, "point": _point, "rolling": _rolling,
     "gear": _gear, "rack_pinion": _rack_pinion, "coupler": _coupler,
     "constraint": _constraint, "nonholonomic": _nonholonomic, "cam": _cam,
-    "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque, "measure": _measure, "gravity": _gravity,
+    "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque,
+    "measure": _measure, "gravity": _gravity, "group": _group,
     **_table_forces(2), **{kind: _by_row(joint) for kind, joint in PLANE.items()}}
 MADE_IN_SPACE = {**MADE, **IN_SPACE, **_table_forces(3)}

@@ -133,6 +133,10 @@ def _measure(measure: Any, drawing: Drawing) -> dict[str, Any]:
     return {"law": law_to_json(measure.law), "unit": measure.unit}
 
 
+def _group(group: Any, drawing: Drawing) -> dict[str, Any]:
+    return {"bodies": [body.name for body in group.bodies]}
+
+
 def _gravity(gravity: Any, drawing: Drawing) -> dict[str, Any]:
     return {"laws": {axis: law_to_json(law) for axis, law in gravity.laws.items()}}
 
@@ -151,5 +155,6 @@ WRITTEN: dict[str, Callable[[Any, Drawing], dict[str, Any]]] = {
     **dict.fromkeys(JOINTS, _joint), **dict.fromkeys((kind for kind in FORCES if kind in ELEMENTS), _table_force),      # type: ignore[has-type]
     "body": _body, "link": _link, "particle": _particle, "point": _point, "gear": _linear,
     "rack_pinion": _linear, "coupler": _coupling, "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
-    "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque, "measure": _measure, "gravity": _gravity}
+    "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque, "measure": _measure, "gravity": _gravity,
+    "group": _group}
 WRITTEN_IN_SPACE = WRITTEN | dict.fromkeys(FORCES, _table_force) | IN_SPACE

@@ -9,15 +9,17 @@ from typing import Any
 
 import numpy as np
 
+from ... import units
 from ..._private.gateway import Variable
-from ..._private.types import Names
+from ..._private.types import Display, Names
 from ..._private.writing import write_atomically
 from ...errors import MissingPackage
 from ...systems.measure_values import component_names
+from ...units import displayed
 
 
 def columns(solution: Any, names: Any = None) -> list[tuple[Variable, np.ndarray]]:
-    """Coordinates, velocities, multipliers and measures by name, a component each; left out: all but measures.
+    """Columns by name in units of display, a component each; left out: coordinates, velocities and multipliers.
 
     A multiplier of an element, whose effort has the opposite sign, is "multiplier of" its name.
 
@@ -27,16 +29,24 @@ def columns(solution: Any, names: Any = None) -> list[tuple[Variable, np.ndarray
         If nothing has a name.
     """
     if names is None:
-        return [(Variable(f"multiplier of {name}" if solution.system._effort_of(name) else name, unit), array[:, i])
+        return [in_display(f"multiplier of {name}" if solution.system._effort_of(name) else name, unit, array[:, i])
                 for array, variables in solution._named() for i, (name, unit) in enumerate(variables)]
     several: Any = [names] if isinstance(names, str) or not isinstance(names, Sequence) else names
-    return [column for name in several for column in _components(solution, getattr(name, "name", name))]
+    return [column for name in several for column in _components(solution, name)]
 
 
-def _components(solution: Any, name: str) -> list[tuple[Variable, np.ndarray]]:
-    values, unit = np.asarray(solution[name], dtype=float), unit_of(solution, name)
-    entries = values.reshape(len(values), -1)
-    return [(Variable(each, unit), entries[:, i]) for i, each in enumerate(component_names(name, values.shape[1:]))]
+def _components(solution: Any, given: Any) -> list[tuple[Variable, np.ndarray]]:
+    is_pair = isinstance(given, tuple) and len(given) == 2
+    name, *body = (getattr(each, "name", each) for each in (given if is_pair else (given,)))
+    values, unit = np.asarray(solution[given], dtype=float), unit_of(solution, name)
+    entries, named = values.reshape(len(values), -1), component_names(name, values.shape[1:])
+    return [in_display(f"{each} in {body[0]}" if body else each, unit, entries[:, i]) for i, each in enumerate(named)]
+
+
+def in_display(name: str, unit: str, values: np.ndarray) -> tuple[Variable, np.ndarray]:
+    """Values in an SI unit in that of display, with name and unit."""
+    chosen = units.shown(unit)
+    return Variable(name, chosen.unit), values if chosen.unit == unit else values * chosen.factor
 
 
 def unit_of(solution: Any, name: str) -> str:
@@ -48,7 +58,9 @@ def unit_of(solution: Any, name: str) -> str:
     return solution.system._unit_of_measure(name)
 
 
-def to_csv(self: Any, path: str | Path, names: Names | None = None) -> Path:
+@displayed
+def to_csv(self: Any, path: str | Path, names: Names | None = None, *,
+           display: Display | None = None) -> Path:
     """Write columns to a CSV file: the time, and what is named, a component each, with names and units in the first line.
 
     Parameters
@@ -57,6 +69,9 @@ def to_csv(self: Any, path: str | Path, names: Names | None = None) -> Path:
     names : str, measure, or sequence of these, optional
         Coordinates, velocities, constraints and measures, as in ``sol[name]``. Left out: all coordinates, velocities and
         multipliers. The multiplier of a drive or coupling is named so, as its force has the opposite sign.
+    display : dict of str to str, optional
+        Units by quantity, such as ``{"force": "kN", "angle": "deg"}``, as of `zerodrift.display_units`; left out: those of the
+        session.
 
     Returns
     -------
@@ -88,13 +103,16 @@ def to_csv(self: Any, path: str | Path, names: Names | None = None) -> Path:
     return path
 
 
-def to_excel(self: Any, path: str | Path, names: Names | None = None) -> Path:
+@displayed
+def to_excel(self: Any, path: str | Path, names: Names | None = None, *,
+             display: Display | None = None) -> Path:
     """Write the same to an Excel file; pandas and openpyxl have to be installed: ``pip install 'zerodrift[excel]'``.
 
     Parameters
     ----------
     path : str or Path
     names : str, measure, or sequence of these, optional
+    display : dict of str to str, optional
         As in `to_csv`.
 
     Returns
@@ -116,6 +134,39 @@ def to_excel(self: Any, path: str | Path, names: Names | None = None) -> Path:
     return path
 
 
+@displayed
+def to_frame(self: Any, names: Names | None = None, *, display: Display | None = None) -> Any:
+    """Return the same as a pandas DataFrame, whose index is the time: ``pip install 'zerodrift[excel]'``.
+
+    Parameters
+    ----------
+    names : str, measure, or sequence of these, optional
+    display : dict of str to str, optional
+        As in `to_csv`.
+
+    Returns
+    -------
+    pandas.DataFrame
+
+    Raises
+    ------
+    ImportError
+        If pandas is missing.
+    KeyError
+        If nothing has a name.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> sol = zd.simulate(zd.models.slider_crank(), 0.1, step=0.01)
+    >>> list(sol.to_frame("crank.angle", display={"angle": "deg", "time": "ms"}))
+    ['crank.angle [deg]']
+    """
+    pandas = imported("pandas", "to_frame", "excel")
+    (time, *heading), values = _table(self, names)
+    return pandas.DataFrame(values[:, 1:], columns=heading, index=pandas.Index(values[:, 0], name=time))
+
+
 def imported(name: str, method: str, extra: str) -> Any:
     """A package that a method needs, one of an extra of this package."""
     try:
@@ -125,6 +176,6 @@ def imported(name: str, method: str, extra: str) -> Any:
 
 
 def _table(solution: Any, names: Any) -> tuple[list[str], np.ndarray]:
-    found = [(Variable("t", "s"), solution.t), *columns(solution, names)]
+    found = [in_display("t", "s", solution.t), *columns(solution, names)]
     return [f"{variable.name} [{variable.unit}]" if variable.unit else variable.name for variable, _ in found], np.column_stack(
         [column for _, column in found])

@@ -16,7 +16,8 @@ from ...errors import WrongValue
 from ...systems.base import BaseSystem
 from ..states.instant import Instant
 from .between_samples import states_between
-from .columns import to_csv, to_excel
+from .columns import to_csv, to_excel, to_frame
+from .loads import Loaded
 from .named import Named, Stats
 from .saving import write
 from .summary import summary
@@ -28,7 +29,7 @@ A_SOLUTION = "a Solution, as zd.simulate returns it"      # for error messages
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Solution(Named):
+class Solution(Named, Loaded):
     """Result of a run: the motion at sampled times, constraint violation, energies, and statistics.
 
     The first axis of every array is time (k samples); arrays are read-only. ``sol["name"]`` is the column of the coordinate,
@@ -259,7 +260,7 @@ class Solution(Named):
     def _last_time(self) -> float:
         return float(self.t[-1]) if len(self.t) else self.t_span[0]
 
-    to_csv, to_excel = to_csv, to_excel
+    to_csv, to_excel, to_frame = to_csv, to_excel, to_frame
 
     def save(self, path: str | Path) -> Path:
         """Write everything to an NPZ file, without pickle; `zerodrift.load` reads it into memory.

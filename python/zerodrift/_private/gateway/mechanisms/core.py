@@ -71,8 +71,10 @@ class MechanismCore(CoreSystem):
         return self._reactions.get(f"{along.name.rpartition('.')[0]}.force", -1) if along.size == 1 else -1
 
     def needs_reactions(self, index: int) -> bool:
-        """As of any system, except for forces whose laws read no reactions, and measures of one's own that read no others."""
+        """As of any system, except sums, forces whose laws read no reactions, and measures of one's own that read no others."""
         each = self.measures[index]
+        if each.terms:
+            return False
         if each.kind == "formula":
             numbers = {other.name: i for i, other in enumerate(self.measures)}
             return any(self.needs_reactions(numbers[name if name in numbers else name.rpartition(".")[0]])
@@ -80,6 +82,11 @@ class MechanismCore(CoreSystem):
         if each.kind in ("force value", "force power", "force sum", "torque sum"):
             return any(force.reads for force in self.tables.forces[each.first:each.first + each.size])
         return super().needs_reactions(index)
+
+    @property
+    def joint_forces(self) -> list[str]:
+        """Names of the forces of joints."""
+        return list(self._reactions)
 
     @functools.cached_property
     def _reactions(self) -> dict[str, int]:

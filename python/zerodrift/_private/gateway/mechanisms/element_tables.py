@@ -30,7 +30,9 @@ OUTPUT_KINDS = {
     "values": lib.ZD_VALUES, "rates": lib.ZD_RATES, "accelerations": lib.ZD_ACCELERATIONS, "joint force": lib.ZD_JOINT_FORCE,
     "joint torque": lib.ZD_JOINT_TORQUE, "joint tension": lib.ZD_JOINT_TENSION, "force value": lib.ZD_FORCE_VALUE,
     "force power": lib.ZD_FORCE_POWER, "drive": lib.ZD_DRIVE_VALUE, "drive power": lib.ZD_DRIVE_POWER,
-    "force sum": lib.ZD_FORCE_SUM, "torque sum": lib.ZD_TORQUE_SUM, "formula": lib.ZD_FORMULA}
+    "force sum": lib.ZD_FORCE_SUM, "torque sum": lib.ZD_TORQUE_SUM, "formula": lib.ZD_FORMULA,
+    "sum": lib.ZD_SUM, "sum of rates": lib.ZD_SUM_OF_RATES, "sum of accelerations": lib.ZD_SUM_OF_ACCELERATIONS,
+    "angular momentum": lib.ZD_ANGULAR_MOMENTUM, "inertia torque": lib.ZD_INERTIA_TORQUE}
 
 
 def three(components: Iterable[Component]) -> Triple[Component]:
@@ -100,14 +102,16 @@ class OutputSpec(NamedTuple):
     scale: float = 1.0
     term: int = 0               # of drives: along which of the relation's marker quantities
     reads: Sequence[str] = ()   # scalar measures and components that a formula reads
+    terms: Sequence[int] = ()   # marker quantities of a sum, with their coefficients; -1: of the value 1
+    coefficients: Sequence[Any] = ()
 
     def components(self, dimension: int) -> int:
         """Number of components in the plane or in space."""
         if self.kind in ("values", "rates", "accelerations"):
             return self.size
-        if self.kind in ("joint force", "force sum"):
+        if self.kind in ("joint force", "force sum") or self.kind.startswith("sum"):
             return dimension
-        return 2 * dimension - 3 if self.kind in ("joint torque", "torque sum") else 1
+        return 2 * dimension - 3 if self.kind.endswith(("torque", "torque sum", "momentum")) else 1
 
 
 def component_places(measures: Iterable[OutputSpec], dimension: int) -> dict[str, tuple[int, int]]:
@@ -180,9 +184,11 @@ def written_elements(tables: Any, has_laws: bool, laws_know_time: bool) -> tuple
     measures, places = [], component_places(tables.measures if any(each.reads for each in tables.measures) else (),
                                             len(tables.gravity))
     for name, each in zip(names, tables.measures, strict=True):
-        reads = (len(each.reads), each.scale, len(terms)) if each.kind == "formula" else each[4:7]
+        of_terms = len(each.reads) or len(each.terms)
+        reads = (of_terms, each.scale, len(terms)) if of_terms or each.kind == "formula" else each[4:7]
         measures.append((name, units[each.unit], OUTPUT_KINDS[each.kind], each.first, *reads))
         terms += (_place(each.name, read, places) for read in each.reads)
+        terms += zip(each.terms, each.coefficients, strict=True)
     reading, kept = _reading(tables)
     elements = {
         "reading": reading, "terms": len(terms), "relations": len(relations), "forces": len(forces), "measures": len(measures),

@@ -119,7 +119,7 @@ def _first(tables: Tables) -> Tables:
     def one(row: Any) -> Any:
         return type(row)(*([_single(each) for each in field] if isinstance(field, list) else _single(field) for field in row))
     first: dict[str, Any] = {name: [one(row) for row in getattr(tables, name)]
-                             for name in ("bodies", "joints", "quantities", "relations", "forces")}
+                             for name in ("bodies", "joints", "quantities", "relations", "forces", "measures")}
     return tables._replace(gravity=_single(tuple(tables.gravity)), **first)
 
 
@@ -133,10 +133,12 @@ def _fields(rows: Sequence[Any]) -> Iterator[tuple[int, str, int, Any]]:
 
 
 def _coefficients(tables: Tables) -> Iterator[tuple[int, str, int, Any]]:
-    """Varying coefficients of relations, likewise."""
+    """Varying coefficients of relations and measures, likewise."""
     first = 0
-    for row in tables.relations:
-        for i, each in enumerate(row.coefficients or ()):
+    of_forces = [((), len(force.inputs)) for force in tables.forces]
+    of_measures = [(each.coefficients, len(each.reads) + len(each.terms)) for each in tables.measures]
+    for coefficients, size in [*((row.coefficients, len(row.quantities)) for row in tables.relations), *of_forces, *of_measures]:
+        for i, each in enumerate(coefficients):
             if _is_column(each):
                 yield first + i, "coefficient", 0, each
-        first += len(row.quantities)
+        first += size

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..._private.gateway.mechanisms.element_tables import GeneralizedForce, OutputSpec
 from ...errors import WrongValue
 from ..elements.bodies import Body, Point
 from ..elements.joints import Coupling, Joint
@@ -60,6 +61,28 @@ class Mesh(NamedTuple):
 
     sides: tuple[Side, Side]
     tangential: float
+
+
+def act(tables: Any, coupling: Coupling, ratio: Any, quantities: list[int]) -> list[Any]:
+    """Coefficients of the constraint of a gear or a rack; `quantities` has the measures that it couples.
+
+    With teeth it acts at the pitch point: quantities that the bearings of the wheels keep at zero are added. The separating
+    forces and the measure of the tangential force are added to the tables.
+    """
+    coefficients = [-ratio, 1.0]
+    if not coupling.teeth:
+        return coefficients
+    found, row, name = mesh(coupling, tables.drawing.elements, ratio, tables.numbers), len(tables.relations), coupling.name
+    for side in found.sides:
+        for i, (size, quantity) in enumerate(tables._mesh_quantities(side, side.tooth)):
+            quantities.append(tables._quantity(f"{name} {side.joint.name} tooth {i}", quantity))
+            coefficients.append(size)
+        for i, (size, quantity) in enumerate(tables._mesh_quantities(side, side.separation)):
+            number = tables._quantity(f"{name} {side.joint.name} separation {i}", quantity)
+            tables.forces.append(GeneralizedForce("separation", number, size, relation=row,
+                                                  joint=tables.joint_number[side.joint.name]))
+    tables.observed.append(OutputSpec(f"{name}.tooth_force", "N", "drive", row, 1, found.tangential, len(quantities)))
+    return coefficients
 
 
 def mesh(coupling: Coupling, elements: Mapping[str, Any], ratio: float, numbers: Numbers) -> Mesh:
@@ -113,7 +136,8 @@ def _bearing(joint: Any, carrier: Body, numbers: Numbers) -> Bearing:
     axes = [NORMAL, NORMAL] if joint.dimension == 2 else [frame[0] for frame in joint.frames]
     local = [float(each) for each in points[0].local_with(numbers)]
     at = np.array([*local, 0.0][:3])
-    return Bearing(joint, *points, at, *(axes if is_first else axes[::-1]), 1 if is_first else -1)
+    axis, axis_on_wheel = axes if is_first else axes[::-1]
+    return Bearing(joint, points[0], points[1], at, axis, axis_on_wheel, 1 if is_first else -1)
 
 
 def _on_cylinders(coupling: Coupling, one: Bearing, other: Bearing, rho: float) -> np.ndarray:
@@ -140,7 +164,7 @@ def _on_cones(coupling: Coupling, one: Bearing, other: Bearing, rho: float,
     line = line / np.linalg.norm(np.cross(other.axis, line))
     side = float(line @ (one.at + other.at - 2 * apex))
     if abs(side) <= PARALLEL * radius:
-        raise WrongValue(f"joints of gear {coupling.name!r} must be drawn beside the point where their axes intersect, on the side "
-                         "of the teeth", "geometry")
+        raise WrongValue(f"joints of gear {coupling.name!r} must be drawn beside the point where their axes intersect, on the "
+                         "side of the teeth", "geometry")
     line = line if side > 0 else -line
     return apex + radius * line, line / np.linalg.norm(line)

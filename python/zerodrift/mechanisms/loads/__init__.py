@@ -1,0 +1,1 @@
+"""Forces between teeth, and measures of several bodies and of the ground."""
