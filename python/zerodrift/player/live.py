@@ -117,7 +117,6 @@ def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None 
     sol = _motion(system, step, options)
     points = body_points(system, list(sol.p))
     inputs, limits = _given(system, sliders) if sliders is not None else (_inputs(system), {})
-    known = system._watching.known
     arrows = [each.name for each in (acting(system._drawing, wanted.forces) if wanted.forces else ())
               if np.ndim(sol[f"{each.name}.force"]) == 2]
     graphs = [variable for variable, _ in columns(sol, wanted.graphs)] if len(wanted.graphs) else []
