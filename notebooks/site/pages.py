@@ -10,6 +10,9 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import live
+import matplotlib
+from fontTools import subset
+from fontTools.ttLib import TTFont
 
 import zerodrift as zd
 from zerodrift import errors, gallery
@@ -34,6 +37,7 @@ def write(folder: Path) -> None:
     (folder / "models").mkdir(exist_ok=True)
     figures(folder)
     live.write(folder / "extra")
+    font(folder / "fonts")
     for name, lines in {"cards.html": cards(), "boards.html": live.boards(), **{f"{page}.md": text for page, text in pages.items()}}.items():
         path, text = folder / name, "\n".join(lines) + "\n"
         if not path.exists() or path.read_text(encoding="utf-8") != text:
@@ -58,6 +62,23 @@ def card(page: str, film: str, title: str, text: str, see: str) -> str:
             f'<b>{title}</b><small>{html.escape(text)}</small></a>')
 
 
+LETTERS = (range(0x20, 0x7F), range(0x391, 0x3D7), (0x2D9, 0x307, 0x2032), range(0x2190, 0x22FF), range(0x1D400, 0x1D7FF))      # code points
+
+
+def font(folder: Path) -> None:
+    """Write a font for equations, of those that matplotlib has: systems without one have no italic letters or dots that are seen."""
+    path = folder / "mathematics.woff"
+    if path.exists():
+        return
+    folder.mkdir(exist_ok=True)
+    whole = TTFont(Path(matplotlib.get_data_path()) / "fonts" / "ttf" / "STIXGeneral.ttf")
+    part = subset.Subsetter(subset.Options(drop_tables=["FFTM"]))
+    part.populate(unicodes=[code for codes in LETTERS for code in codes])
+    part.subset(whole)
+    whole.flavor = "woff"
+    whole.save(path)
+
+
 def figures(folder: Path) -> None:
     """Figures 1 to 3 of the paper, drawn anew."""
     for number in (1, 2, 3):
@@ -68,7 +89,7 @@ def figures(folder: Path) -> None:
 
 def methods(title: str, rows: dict[str, object]) -> Iterable[str]:
     """The rows of a table of methods, with their parameters."""
-    yield from (f"# {title}", "")
+    yield from (f"# {title}", "", f"Summary, equations, source and parameters of {', '.join(f'`{name}`' for name in rows)}.", "")
     for name, row in rows.items():
         yield from (f"## {name}", "", row.summary, "", " ".join(row.description.split()), "")
         if row.equations:
@@ -218,16 +239,30 @@ def model(exhibit: gallery.Exhibit, graphs: dict[str, str]) -> Iterable[str]:
     yield from ("## Its code", "", "```python", exhibit.source, "```", "")
 
 
+TASKS = {
+    "Build": "Mechanism linkage load System symbolic native from_mechanics table Structure",
+    "Simulate": "simulate Run ManyRuns Event every Solution Instant view explore",
+    "Find states and forces": "assemble equilibrium equilibria kinematics trace reach inverse_dynamics flywheel linearize transmission_angle",
+    "Vary and choose": "ensemble grid tune work_precision reference stability_map check",
+    "Methods": "formulations integrators corrections Projection Baumgarte EnergyCorrection",
+    "Use elsewhere": "fmu c_source block record_size get_include numba_signature",
+    "Terms of the equations": "mass_matrix bias jacobian acceleration project",
+}
+
+
 def reference() -> Iterable[str]:
     """Public names, each with a page of its own."""
-    functions = [name for name in zd.__all__ if inspect.isroutine(getattr(zd, name))]
-    classes = [name for name in zd.__all__ if inspect.isclass(getattr(zd, name)) and getattr(zd, name) not in (*ERRORS, *WARNINGS)]
     plots = [f"plot.{name}" for name in zd.plot.__all__ if inspect.isroutine(getattr(zd.plot, name))]
-    yield from ("# Reference", "")
+    yield from ("# Reference", "", "By task; `help(zd)` has the function to begin with for each.", "")
     public = [each.__name__ for each in (*ERRORS, *WARNINGS) if hasattr(zd, each.__name__)]
-    for title, names in (("Functions", functions), ("Classes", classes), ("Plots", plots), ("Errors and warnings", public)):
-        yield from (f"## {title}", "", "```{eval-rst}", ".. autosummary::", "   :toctree: api", "")
-        yield from (f"   zerodrift.{name}" for name in names)
+    known = {*public, *(name for names in TASKS.values() for name in names.split())}
+    others = [name for name in zd.__all__ if name not in known and (inspect.isroutine(getattr(zd, name)) or inspect.isclass(getattr(zd, name)))]
+    tasks = [(title, names.split()) for title, names in TASKS.items()]
+    for title, names in (*tasks, ("Others", others), ("Plots", plots), ("Errors and warnings", public)):
+        if not names:
+            continue
+        yield from (f"## {title}", "", "```{eval-rst}", ".. autosummary::", "   :toctree: api", "   :nosignatures:", "")
+        yield from (f"   ~zerodrift.{name}" for name in names)
         yield from ("```", "")
     yield from ("## Modules", "", "```{eval-rst}")
     for module in (zd.systems, zd.compare, zd.inertia):
