@@ -426,3 +426,40 @@ def test_the_steady_circle_of_a_disc_is_routh_s(layout):
     spin = (0.9 - turning * sine**2) / cosine       # from the part of the angular velocity about the vertical
     assert spin * turning * sine * (C + mass * radius**2) == pytest.approx(
         cosine * (A * turning**2 * sine - mass * G * radius), rel=1e-9)
+
+
+@pytest.mark.parametrize("names", [None, ["steer.angle", "frame rotation about x"]])
+def test_a_reduced_linearization_has_the_same_responses_and_eigenvalues(names):
+    """A bicycle at 5 m/s, whose place and heading nothing depends on."""
+    lin = zd.linearize(zd.models.whipple_bicycle(speed=5.0, roll_rate=0.0), inputs=["steer.torque"], outputs=["steer.angle"])
+    if names and names[1] not in lin.names:
+        names = ["steer.angle", next(each for each in lin.names if "rotation about x" in each or "roll" in each)]
+    reduced = lin.reduced(names)
+    assert reduced.ignored == ()
+    assert len(reduced.A) == len(lin.eigenvalues) == 4 < len(lin.A)
+    assert np.sort_complex(reduced.eigenvalues) == pytest.approx(np.sort_complex(lin.eigenvalues), rel=1e-8)
+    omega = [0.3, 2.0, 11.0]
+    assert reduced.frequency_response(omega) == pytest.approx(lin.frequency_response(omega), rel=1e-8)
+    scipy = pytest.importorskip("scipy.linalg")
+    X = scipy.solve_continuous_are(reduced.A, reduced.B, np.eye(4), np.eye(1))
+    assert np.linalg.eigvals(reduced.A - reduced.B @ reduced.B.T @ X).real.max() < -0.1
+    if names:
+        assert reduced.names[:2] == tuple(names)
+        assert reduced.A[:2] == pytest.approx(np.eye(4)[2:], abs=1e-9)
+        assert pytest.approx(lin.in_coordinates(names), rel=1e-12) == reduced.A
+
+
+def test_outputs_that_depend_on_ignorable_coordinates_are_named():
+    m = zd.Mechanism("cart", gravity=(0, -9.81))
+    cart, pole = m.body("cart", 1.0, 0.1), m.link("pole", (0, 0), (0, 1), mass=0.1)
+    m.prismatic("rail", m.ground, cart, axis=(1, 0))
+    m.revolute("pin", cart.point((0, 0)), pole.start)
+    lin = zd.linearize(m, inputs=["rail.force"], outputs=["pin.angle", "rail.displacement"])
+    with refused("wrong-measure", "rail.displacement"):
+        lin.reduced()
+    reduced = zd.linearize(m, inputs=["rail.force"], outputs=["pin.angle"]).reduced(["pin.angle"])
+    half, total = 0.5, 1.1        # (J + m l^2) a - m l x'' = m g l theta, with x'' from the sum of all forces, about the centre
+    inertia = 0.1 / 3 - (0.1 * half)**2 / total
+    assert pytest.approx(np.array([[0, 1], [0.1 * 9.81 * half / inertia, 0]]), rel=1e-6, abs=1e-9) == reduced.A
+    assert reduced.B[1, 0] == pytest.approx(0.1 * half / total / inertia, rel=1e-6)
+    assert pytest.approx(np.array([[1.0, 0.0]])) == reduced.C

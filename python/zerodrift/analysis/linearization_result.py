@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import functools
 from typing import Any
 
@@ -16,6 +17,7 @@ from .quantities import find, names_of
 from .spectrum import complement, of_matrix
 from .state import State, sizes_of, state
 
+LEFT = 1e-9                 # of an output: its part along ignorable coordinates that is rounding
 EIGENVALUE_ROUNDING = 1e-12  # of an eigenvalue: a smaller real part is printed as zero
 
 
@@ -125,7 +127,10 @@ class Linearization:
         ValueError
             If they do not determine the motion.
         """
-        wanted = names_of(names, "names")
+        return self._quantities(names_of(names, "names"))[1]
+
+    def _quantities(self, wanted: list[str]) -> tuple[np.ndarray, np.ndarray]:
+        """Matrix (2 n, k) from states to quantities and their rates, and A (2 n, 2 n) in these."""
         J, nv = np.vstack([_row(self._at, name) for name in wanted]), self.system.nv
         if self._instant is not None:
             return self._in_quantities(wanted, J @ self._quasi[:nv])
@@ -134,10 +139,61 @@ class Linearization:
         if Y.shape[0] != Y.shape[1] or np.linalg.cond(Y) > 1e9:
             raise WrongValue(f"names must be {Q.shape[1] / 2:g} quantities that determine the motion, not {checks.shown(wanted)}",
                              "wrong-measure")
-        return Y @ (Q.T @ self.A @ Q) @ np.linalg.inv(Y)
+        return Y @ Q.T, Y @ (Q.T @ self.A @ Q) @ np.linalg.inv(Y)
 
-    def _in_quantities(self, names: list[str], changes: np.ndarray) -> np.ndarray:
-        """The Jacobian (2 n, 2 n) of the rates and second rates of quantities that determine their own motion, at an instant."""
+    def reduced(self, names: Any = None) -> Linearization:
+        """The linearization without ignorable coordinates, which SciPy's Riccati and Lyapunov solvers take.
+
+        Parameters
+        ----------
+        names : sequence of str or measure, optional
+            Names of measures of positions, as of `in_coordinates`: states are these and their rates. Left out: states are along
+            columns of `basis`, whose number is that of the eigenvalues.
+
+        Returns
+        -------
+        Linearization
+            With A, B, C, D, `names` and `basis` of these states, and nothing in `ignored`.
+
+        Raises
+        ------
+        ValueError
+            If names do not determine the motion, or an output depends on an ignorable coordinate.
+
+        Examples
+        --------
+        A pole on a cart, whose position is ignorable:
+
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("cart", gravity=(0, -9.81))
+        >>> cart, pole = m.body("cart", 1.0, 0.1), m.link("pole", (0, 0), (0, 1), mass=0.1)
+        >>> rail = m.prismatic("rail", m.ground, cart, axis=(1, 0))
+        >>> pin = m.revolute("pin", cart.point((0, 0)), pole.start)
+        >>> lin = zd.linearize(m, inputs=["rail.force"]).reduced([pin.angle])
+        >>> lin.names, lin.A.shape, float(lin.B[1, 0].round(3))
+        (('pin.angle', "pin.angle'"), (2, 2), 1.463)
+        """
+        Q = complement(self._spectrum.removed)
+        to, A = (Q.T, Q.T @ self.A @ Q) if names is None else self._quantities(names_of(names, "names"))
+        back = np.linalg.pinv(to)
+        C = self.C @ back
+        missed, size = np.abs(C @ to - self.C).max(axis=1, initial=0.0), np.abs(self.C).max(axis=1, initial=0.0)
+        if (left := np.flatnonzero(missed > LEFT * size)).size:
+            raise WrongValue(f"outputs must not depend on ignorable coordinates or on others than names, and "
+                             f"{self.outputs[left[0]]!r} does", "wrong-measure")
+        found = copy.copy(self)
+        vars(found).pop("names", None)
+        if names is not None:
+            wanted = names_of(names, "names")
+            vars(found)["names"] = (*wanted, *(f"{name}'" for name in wanted))
+        found.A, found.B, found.C, found.basis, found.rate = A, to @ self.B, C, self.basis @ back, to @ self.rate
+        found._spectrum, found.ignored = of_matrix(A), ()
+        found.eigenvalues, found.frequencies = found._spectrum.eigenvalues, found._spectrum.frequencies
+        found.damping, found.modes = found._spectrum.dampings, found.basis @ found._spectrum.vectors
+        return found
+
+    def _in_quantities(self, names: list[str], changes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Matrix of quantities and their rates at an instant, if these determine their own motion, and the Jacobian."""
         rates = self._second_rates(names)
         Y = np.vstack([changes, rates[:len(changes)]])
         found = np.linalg.lstsq(Y.T, rates.T, rcond=None)[0].T
@@ -145,7 +201,7 @@ class Linearization:
         if np.linalg.matrix_rank(Y, tol=1e-9 * np.linalg.norm(Y, 2)) < len(Y) or left > 1e-7 * np.abs(rates).max(initial=0.0):
             raise WrongValue(f"names must be independent quantities that determine their motion, not {checks.shown(names)}",
                              "wrong-measure")
-        return found
+        return Y, found
 
     @property
     def _quasi(self) -> np.ndarray:

@@ -20,11 +20,16 @@ from .building.force_verbs import ForceVerbs
 from .building.joint_verbs import JointVerbs
 from .building.plane_to_space import lift
 from .building.start_verbs import StartVerbs
+from .elements.bodies import Point
 from .elements.drawing import Drawing
-from .elements.forces import Gravity
+from .elements.forces import Actuator, Gravity, Motor
+from .elements.immutable import Fixed
+from .elements.measures import Measure
 from .files.to_json import described, text
 from .reports.summary import headline, report
 from .system import LAYOUTS, MechanismSystem
+
+ROTOR = "rotor", "shaft", "gear"        # elements of a motor whose rotor is geared
 
 
 class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Makes):
@@ -211,6 +216,93 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         made = Mechanism(self.name, dimension=3, gravity=(*self.gravity, 0.0), parameters=self.parameters)
         lift(self._drawing(), made)
         return made
+
+    def remove(self, name: str | Any) -> None:
+        """Remove an element; values of the start that belong to it go, too, and the geared rotor of a motor.
+
+        Parameters
+        ----------
+        name : str or element
+            Such as the motor of a model.
+
+        Raises
+        ------
+        ValueError
+            If other elements or the start depend on it; they are named, and nothing is removed.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.models.scissor_lift()
+        >>> m.motors
+        (<motor drive: displacement of rail>,)
+        >>> m.remove("drive")
+        >>> m.motors
+        ()
+        """
+        element = self._own(name)
+        gone = {element.name, *(f"{element.name} {part}" for part in ROTOR if isinstance(element, Motor))} & self._elements.keys()
+        gone |= {each.name for each in self._of(Point) if each.body is element}
+        others = [other.name for other in self._elements.values() if other.name not in gone and other.refers_to & gone]
+        if others:
+            raise WrongValue(f"{element.name!r} must not be removed, as {', '.join(map(repr, others))} of {self.name!r} depend"
+                             f"{'s' * (len(others) == 1)} on it: remove that first", "wrong-element")
+        for each in gone:
+            del self._elements[each]
+        for given in (self._held, self._wished):
+            for key in [key for key in given if key.partition(".")[0] in gone]:
+                del given[key]
+
+    def replace(self, name: str | Motor | Actuator, **changed: Any) -> Motor | Actuator:
+        """Replace a motor or an actuator by one with other arguments, at its joint or between its points, by its name.
+
+        Parameters
+        ----------
+        name : str, motor or actuator
+        **changed
+            Arguments of `motor` or `actuator`: ``torque=0.0``, ``speed=lambda t: ...``, ``of=``.
+
+        Returns
+        -------
+        Motor or Actuator
+
+        Raises
+        ------
+        TypeError, ValueError
+            For an element of another kind or wrong arguments; the mechanism is then as before.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.models.scissor_lift()
+        >>> m.replace("drive", force=0.0)
+        <motor drive: force of rail>
+        """
+        element = self._own(name)
+        checks.instance("name", element, (Motor, Actuator), "a motor or an actuator: parameters of other elements change by "
+                        "with_parameters(), and remove() makes room for others")
+        before = dict(self._elements)
+        for part in ("", *(f" {part}" for part in ROTOR)):
+            self._elements.pop(f"{element.name}{part}", None)
+        try:
+            if isinstance(element, Motor):
+                which = Measure(f"{element.joint.name}.{element.which}") if element.which else element.joint
+                made: Any = self.motor(element.name, which, **changed)
+            else:
+                made = self.actuator(element.name, element.first, element.second, **changed)
+        except BaseException:
+            self._elements = before
+            raise
+        after = self._elements
+        self._elements = {key: after.get(key, each) for key, each in before.items() if key in after} | after
+        return made
+
+    def _own(self, name: Any) -> Any:
+        element = self[name] if isinstance(name, str) else name
+        if element is self.ground or not isinstance(element, Fixed) or not self._is_own(element):
+            raise WrongValue(f"name must be an element of {self.name!r} other than the ground, not {checks.shown(name)}",
+                             "wrong-element")
+        return element
 
     @property
     def p0(self) -> np.ndarray:

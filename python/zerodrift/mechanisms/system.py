@@ -33,6 +33,7 @@ from .equations.measure_names import constraint_names
 from .equations.measure_tables import measuring
 from .equations.space_tables import SpaceTables, tables_of
 from .equations.tables import Tables
+from .equations.tree import coordinate_names
 from .files.to_json import described
 from .pictures.arrows import acting, chosen
 from .pictures.plane_outline import outline
@@ -94,13 +95,13 @@ class MechanismSystem(Reported):
     def coordinates(self) -> tuple[Variable, ...]:
         if isinstance(self._tables, SpaceTables):
             return self._tables.coordinates()
-        return tuple(position for position, _ in _variables(self._tables, self._first_core))
+        return tuple(position for position, _ in coordinate_names(self._tables, self._first_core))
 
     @functools.cached_property
     def velocities(self) -> tuple[Variable, ...]:
         if isinstance(self._tables, SpaceTables):
             return self._tables.velocities()
-        return tuple(rate for _, rate in _variables(self._tables, self._first_core))
+        return tuple(rate for _, rate in coordinate_names(self._tables, self._first_core))
 
     @functools.cached_property
     def constraints(self) -> tuple[Variable, ...]:
@@ -269,6 +270,12 @@ class MechanismSystem(Reported):
         drawing = drawing._replace(held=drawing.held | more, wished=drawing.wished | wished)
         return self._interpreted.state(*Starting(drawing, self._numbers, self._tables).at(t, nudge=nudge))
 
+    def _assembled_each(self, values: Sequence[Mapping[str, Any]], t: float) -> list[tuple[np.ndarray, np.ndarray]]:
+        """States with these held values in addition to those of the start, one after another."""
+        held = [self._drawing.held | targets(each, "start", self._drawing.dimension) for each in values]
+        starting = Starting(self._drawing._replace(held=held[0]), self._numbers, self._tables)
+        return [self._interpreted.state(*starting.with_values(each).at(t)) for each in held]
+
     def _state_or_start(self, p: Any, v: Any, p_name: str = "p0", v_name: str = "v0",
                         t: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
         if not self.nv:     # coordinates of joints between welded bodies have no velocities
@@ -380,19 +387,3 @@ class MechanismSystem(Reported):
             moments = at_moments(Parts(drawing, numbers), poses)
         return [(element.name, *acting(element, moments, np.asarray(solution[f"{element.name}.force"])[rows]))
                 for element in elements]
-
-
-def _variables(tables: Tables, core: MechanismCore) -> list[tuple[Variable, Variable]]:
-    """Names and units of coordinates and velocities."""
-    found = []
-    for coordinate in core.motions:
-        body = tables.parts[coordinate.body - 1]
-        if coordinate.kind == "displacement":
-            joint = tables.joints[tables.inboard[coordinate.body - 1]]
-            found.append((Variable(f"{joint.name}.displacement", "m"), Variable(f"{joint.name}.speed", "m/s")))
-        elif coordinate.kind == "angle":
-            found.append((Variable(f"{body.name}.angle", "rad"), Variable(f"{body.name}.angular_velocity", "rad/s")))
-        else:
-            place = f"{body.name}.{coordinate.kind}"
-            found.append((Variable(place, "m"), Variable(f"{place}_dot", "m/s")))
-    return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import functools
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -44,7 +45,19 @@ class Starting:
         self.changes: DrawingChanges | None = None      # of the last assembly, if a joint was open
         self._stays: Unforced | None = None
         self._drive_starts: dict[float, DriveStarts] = {}       # by time
+        self._assemblies: dict[Any, tuple[Tables, Assembly]] = {}
         self._check_held()
+
+    def with_values(self, held: Mapping[str, Any]) -> Starting:
+        """The same start with other values of what it holds; tables and assemblies are kept, if these do not depend on them."""
+        drawing = self.drawing._replace(held=dict(held))
+        if self.has_speeds or held.keys() != self.drawing.held.keys():
+            return Starting(drawing, self.numbers, self._known)
+        other = copy.copy(self)
+        other.drawing = drawing
+        for name in ("is_relative", "has_mass"):
+            vars(other).pop(name, None)
+        return other
 
     def _check_held(self) -> None:
         for what, given in (("start", self.drawing.held), ("wish", self.drawing.wished)):
@@ -113,8 +126,10 @@ class Starting:
 
     def closed(self, t: float) -> tuple[Tables, Assembly, np.ndarray]:
         """Tables, assembly and positions at a time, also if something moves without mass."""
-        tables = self._tables(self.drives)
-        assembly, drawn = self._assembly(tables, t), self.drive_starts(t).drawn
+        if t not in self._assemblies:
+            tables = self._tables(self.drives)
+            self._assemblies[t] = tables, self._assembly(tables, t)
+        (tables, assembly), drawn = self._assemblies[t], self.drive_starts(t).drawn
         if t and self.has_speeds:
             by_functions = drawn_targets([name for name in drawn if name not in self.drives], assembly.core)
             staying = self._staying(assembly.core, "positions")

@@ -37,6 +37,17 @@ class Fixed:
         """User functions that are plain numbers, likewise."""
         return {path: law.constant for path, law in self.laws.items() if law.constant is not None}
 
+    @property
+    def refers_to(self) -> set[str]:
+        """Names of the elements that it is made of, or whose measures it reads."""
+        found = {name.partition(".")[0] for law in self.laws.values() for name in getattr(law, "reads", ())}
+        found |= {each.partition(".")[0] for each in getattr(self, "of", ())}
+        for value in vars(self).values():
+            for each in value if isinstance(value, tuple | list) else (value,):
+                if isinstance(each, Fixed):
+                    found |= {each.name, getattr(getattr(each, "body", None), "name", None)} - {None}
+        return found - {self.name}
+
     def __setattr__(self, name: str, value: Any) -> None:
         if name[0] != "_":
             if name in self.__dict__:

@@ -71,6 +71,11 @@ class Law:
         self.record(parameters)
 
     @property
+    def reads(self) -> tuple[str, ...]:
+        """Measures and reactions that it depends on, by name."""
+        return tuple(self._bound.values())
+
+    @property
     def kind(self) -> str:
         """"graph", with functions whose bits differ by machine; "table"; or "call" with the reason; empty for a number."""
         if self.constant is not None:

@@ -6,6 +6,8 @@ import heapq
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
+from ..._private.gateway import Variable
+
 
 class Edge(NamedTuple):
     """Joint that can be an inboard joint: `freedoms` are its numbers of coordinates for the first body and for the second."""
@@ -87,3 +89,19 @@ def freedoms(joint: Any) -> tuple[int, int]:
     if joint.row.inboard == "turns":
         return int(joint.bodies[0].turns), int(joint.bodies[1].turns)
     return (0, 0) if joint.row.inboard == "fixed" else (1, 1)
+
+
+def coordinate_names(tables: Any, core: Any) -> list[tuple[Variable, Variable]]:
+    """Names and units of coordinates and velocities."""
+    found = []
+    for coordinate in core.motions:
+        body = tables.parts[coordinate.body - 1]
+        if coordinate.kind == "displacement":
+            joint = tables.joints[tables.inboard[coordinate.body - 1]]
+            found.append((Variable(f"{joint.name}.displacement", "m"), Variable(f"{joint.name}.speed", "m/s")))
+        elif coordinate.kind == "angle":
+            found.append((Variable(f"{body.name}.angle", "rad"), Variable(f"{body.name}.angular_velocity", "rad/s")))
+        else:
+            place = f"{body.name}.{coordinate.kind}"
+            found.append((Variable(place, "m"), Variable(f"{place}_dot", "m/s")))
+    return found

@@ -13,8 +13,8 @@ from typing import Any, Unpack
 import numpy as np
 
 from ..._private import checks, gateway
-from ..._private.types import ArrayLike, Inputs, MeasureLike, Settings, SystemLike
-from ...errors import WrongValue
+from ..._private.types import ArrayLike, Inputs, MeasureLike, Settings, SystemLike, Values
+from ...errors import WrongType, WrongValue
 from ...symbolics.emit import program_writer
 from ...systems.base import closed_form_core_of
 from ...systems.measure_values import Place
@@ -23,6 +23,7 @@ from ..arguments.settings import known, with_names
 from ..states.reading import Reading
 from .beginning import Prepared, nominal_span, prepared
 from .ending import beyond_reach
+from .many_starts import assembled
 from .run_state import restored, saved, unpacked
 from .threads import processors
 
@@ -281,18 +282,25 @@ class ManyRuns:
         self._core.replace(i, run, ready)
         self._readings.pop(i, None)
 
-    def reset(self, p0: ArrayLike | None = None, v0: ArrayLike | None = None, *, where: ArrayLike | None = None) -> None:
+    def reset(self, p0: ArrayLike | None = None, v0: ArrayLike | None = None, *, start: Values | None = None,
+              where: ArrayLike | None = None) -> None:
         """Put runs back to t0, with their first inputs.
 
         Parameters
         ----------
         p0, v0 : array_like (nq,), (nv,), or of each run that is reset (k, nq), (k, nv)
             Other starts; left out: the first ones. They must satisfy the constraints.
+        start : dict of measure to value, optional
+            Instead, for mechanisms: values of measures, as of `Mechanism.start`, in addition to the mechanism's own; one for all
+            runs, or an array of values (k, ...).
         where : array_like (runs,) of bool, optional
             True for the k runs to reset; left out: all.
         """
         places = np.flatnonzero(_mask(where, len(self)))
-        states = _check_states(self._ready[0], p0, v0, len(places))
+        if start is not None and not (p0 is None and v0 is None):
+            raise WrongType("start must be left out where p0 or v0 is given", "conflicting-arguments")
+        states = (_check_states(self._ready[0], p0, v0, len(places)) if start is None else
+                  assembled([self._ready[i] for i in places.tolist()], start))
         for i, (p, v) in zip(places.tolist(), states, strict=True):
             ready = self._ready[i]
             start = ready._replace(p0=ready.p0 if p is None else p, v0=ready.v0 if v is None else v)
