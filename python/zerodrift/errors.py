@@ -78,7 +78,7 @@ OF_ARGUMENTS = {
     "wrong-name": "Nothing has this name; the message has the closest ones.",
     "not-finite": "A number is NaN or infinite, or an entry of an array is masked.",
     "out-of-range": "A number is not between the limits in the message.",
-    "unknown-choice": "A word is none of those in the message.",
+    "unknown-choice": "A word is not among the choices in the message.",
     "duplicate-name": "A name is given twice, is taken, or belongs to several things.",
     "shape": "An array or a list has another shape or number of entries than it must have.",
     "not-increasing": "Times or values are not in increasing order.",

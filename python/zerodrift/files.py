@@ -34,7 +34,7 @@ def load(path: str | Path) -> Any:
     Raises
     ------
     ValueError
-        If the file is none of these, is incomplete, or has a key of a mechanism that this version does not know; the message
+        If the file is of another kind, is incomplete, or has a key of a mechanism that this version does not know; the message
         gives its place.
 
     Examples

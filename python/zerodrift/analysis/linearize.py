@@ -81,8 +81,8 @@ def linearize(system: SystemLike, at: Reading | tuple[float, ArrayLike, ArrayLik
     flow = Flow(here, rest, at.effort if isinstance(at, Equilibrium) else None)
     if not flow.is_steady:
         left = float(np.abs(flow.left).max())
-        warnings.warn(f"{system.name} is not in an equilibrium or a steady motion here: accelerations of {left:.3g} m/s^2 or "
-                      "rad/s^2 remain or arise, and A is that of an instant; zd.equilibrium finds one", AccuracyWarning,
+        warnings.warn(f"{system.name} is not in an equilibrium or a steady motion here: the residual acceleration is {left:.3g} "
+                      "(m/s^2 or rad/s^2), and A is that of an instant; zd.equilibrium finds an equilibrium", AccuracyWarning,
                       stacklevel=2)
     return _with_ports(flow, names_of(inputs, "inputs"), names_of(outputs, "outputs"))
 

@@ -168,7 +168,7 @@ def _names(argument: str, given: Any, points: Mapping[str, Any]) -> tuple[str, .
         raise WrongType(f"{argument} must be a string of one-letter points or a sequence of names, not {checks.shown(given)}")
     for name in given:
         if name not in points:
-            raise WrongValue(f"{argument} names {name!r}, which is none of the points; {checks.closest(name, points)}",
+            raise WrongValue(f"{argument} names {name!r}, which is not one of the points; {checks.closest(name, points)}",
                              "wrong-name")
     return tuple(given)
 

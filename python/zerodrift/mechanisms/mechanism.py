@@ -37,15 +37,15 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
 
     Bodies are drawn, joints join them where they are in the drawing, and lengths count where the drawing is a sketch. Where a
     verb takes a joint, a body or a point, it takes its name as well: ``"pin"``, ``"crank"``, ``"crank.end"``. Every function
-    that takes a system takes a mechanism. No call finishes it: what is added later counts from then on.
+    that takes a system takes a mechanism. No call finishes it: elements may be added at any time.
 
     Parameters
     ----------
     name : str
         For tables and plots.
     dimension : int
-        2, the plane, or 3, space: then points and directions have three components, and hinges and sliders an ``axis=``. In
-        space there are not yet all elements: what is not there says so.
+        2, the plane, or 3, space: then points and directions have three components, and hinges and sliders an ``axis=``.
+        Some elements are not available in space; they raise an error.
     gravity : array_like (dimension,) of numbers or laws, or callable, optional
         In m/s^2, in the drawing's axes; left out: none. A function, such as of ``t``, returns a number for each axis; its work is
         an input of energy.
@@ -96,7 +96,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
             self._add(Gravity({axis: self._law(f"gravity.{axis}", law, reactions=True) for axis, law in laws}))
 
     def system(self, coordinates: Literal["joint", "absolute"] | None = None, compiled: bool | None = None) -> MechanismSystem:
-        """The equations of the mechanism as it is now; what is added later does not change them.
+        """Return the equations of the mechanism as it is now; later changes of the mechanism do not affect them.
 
         Parameters
         ----------
@@ -107,7 +107,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
             ones for open chains of some twenty bodies and for one or two loops, absolute ones for more. Joint ones, too, where a
             body has no mass, and for `compiled`; absolute ones where all bodies are welded to the ground. Loops of hinges and
             sliders alone in space take absolute ones up to eight times the count, as these go through flat poses where joint ones
-            can stop. Which were taken is in ``repr``, and `print` of a mechanism has both counts.
+            can stop. ``repr`` says which were taken, and `print` of a mechanism shows both counts.
             In space, "joint" are the angles, displacements and quaternions of joints along the tree, of free bodies their place
             and quaternion, and the angles of joints that close loops, which follow; "absolute" are seven coordinates and six
             velocities a body, and the angles of all joints. Chains of balls are cheaper in absolute coordinates, those of hinges
@@ -120,11 +120,11 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
             True: the equations are written out, compiled and cached, with closed-form functions where these pay:
             some three times faster for small mechanisms, after a second or more once. Numbers stay numbers that
             `with_parameters` changes; which of them are zero or one, and which points of a body coincide, is in the code, and
-            where that changes, it is compiled anew by itself. What the user prescribes must be numbers, expressions of SymPy,
+            where that changes, the code is compiled again automatically. Laws of the user must be numbers, expressions of SymPy,
             tables, or functions that can be recorded: ``print(m)`` has those that cannot. Without a compiler equations are
             evaluated as with None, with a `NoCompilerWarning`.
-            In space it is joint coordinates that are written out whole; of absolute ones closed-form functions alone, up to some
-            four bodies, and all else keeps the tables. Loops with redundant rows, such as those of full hinges, have no
+            In space joint coordinates are written out completely. Of absolute ones only closed-form functions are, up to some
+            four bodies; all other terms keep the tables. Loops with redundant rows, such as those of full hinges, have no
             closed-form functions in either.
 
         Returns
@@ -168,7 +168,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         Raises
         ------
         ValueError, TypeError
-            If there is no such number, or the value is none that it can have.
+            If there is no such number, or the value is out of range.
 
         Examples
         --------

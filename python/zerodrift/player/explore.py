@@ -68,7 +68,7 @@ class Exploration:
         Raises
         ------
         ValueError
-            If a name is none of the parameters.
+            If a name is not that of a parameter.
         """
         for name, value in {**(values or {}), **named}.items():
             if name not in self.values:
@@ -171,7 +171,7 @@ def explore(system: SystemLike | Callable[..., SystemLike], parameters: Mapping[
     Raises
     ------
     ValueError, TypeError
-        If there are no parameters, a range is not increasing, or a name is none of the system.
+        If there are no parameters, a range is not increasing, or a name is not a parameter of the system.
 
     Examples
     --------

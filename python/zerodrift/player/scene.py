@@ -283,7 +283,7 @@ def _in_display(load: dict[str, Any]) -> dict[str, Any]:
 
 
 def _packed(layer: dict[str, Any], box: tuple[np.ndarray, np.ndarray], label: str) -> dict[str, Any]:
-    """A layer with numbers as text: each point that moves once, those that rest or that a body carries apart."""
+    """Coordinates packed as base64. Moving points are stored once each; fixed points and points of rigid bodies separately."""
     table = layer["table"]
     size = np.maximum(box[1] - box[0], 1e-300)
     is_vector = np.arange(table.shape[1]) >= layer["vectors"]

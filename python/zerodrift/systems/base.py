@@ -165,7 +165,7 @@ class BaseSystem(Defaults):
         ValueError
             If the system has no parameter of that name.
         TypeError
-            If a parameter is changed twice, or its value is none that it can have.
+            If a parameter is changed twice, or its value is out of range.
 
         Examples
         --------

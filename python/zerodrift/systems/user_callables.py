@@ -87,14 +87,14 @@ def arguments(name: str, given: Callable[..., Any], allowed: list[str], more: st
     wants, there_is = [], f"there is {', '.join(allowed)}{more}"
     for argument in _signature(name, given, there_is):
         if argument.kind in (argument.VAR_POSITIONAL, argument.VAR_KEYWORD):
-            raise WrongType(f"{name} has {str(argument)!r}, and must name what it asks for; {there_is}", "user-function")
+            raise WrongType(f"{name} has {str(argument)!r}, and must name its arguments; {there_is}", "user-function")
         if argument.name in allowed:
             if argument.kind is argument.POSITIONAL_ONLY:
                 raise WrongType(f"{name} takes {argument.name!r} by position only, and must take it by name: leave out the '/'",
                                 "user-function")
             wants.append(argument.name)
         elif argument.default is argument.empty:
-            raise WrongType(f"{name} asks for {argument.name!r}; {there_is}", "user-function")
+            raise WrongType(f"{name} has the argument {argument.name!r}; {there_is}", "user-function")
     return wants
 
 
@@ -102,5 +102,5 @@ def _signature(name: str, given: Callable[..., Any], there_is: str) -> Iterable[
     try:
         return inspect.signature(given).parameters.values()
     except (TypeError, ValueError) as error:
-        raise WrongType(f"{name} must be a function that names what it asks for, and {given!r} does not; {there_is}",
+        raise WrongType(f"{name} must be a function that names its arguments, and {given!r} does not; {there_is}",
                         "user-function") from error

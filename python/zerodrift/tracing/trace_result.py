@@ -85,7 +85,7 @@ class Trace:
         Raises
         ------
         KeyError
-            If there is none of that name, or it is one of velocities or forces.
+            If there is no measure of that name, or it depends on velocities or forces.
 
         Examples
         --------

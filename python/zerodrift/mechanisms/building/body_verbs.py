@@ -53,7 +53,7 @@ class BodyVerbs(Elements):
         Raises
         ------
         ValueError, TypeError
-            If the name is taken, or a number is none that there can be.
+            If the name is taken, or a number is out of range.
 
         Examples
         --------
@@ -96,7 +96,7 @@ class BodyVerbs(Elements):
         thickness : float, optional
             In space, the diameter of the bar in m; left out: a twentieth of its length.
         normal : array_like (3,), optional
-            In space, what is made perpendicular for the z axis instead, in the drawing.
+            In space: direction in the drawing whose perpendicular part is the z axis.
 
         Returns
         -------
@@ -105,7 +105,7 @@ class BodyVerbs(Elements):
         Raises
         ------
         ValueError, TypeError
-            If the name is taken, a number is none that there can be, or start and end are the same point.
+            If the name is taken, a number is out of range, or start and end are the same point.
 
         Examples
         --------
@@ -172,7 +172,7 @@ class BodyVerbs(Elements):
         Raises
         ------
         ValueError, TypeError
-            If the name is taken, or a number is none that there can be.
+            If the name is taken, or a number is out of range.
 
         Examples
         --------
@@ -206,7 +206,7 @@ class BodyVerbs(Elements):
         Raises
         ------
         ValueError, TypeError
-            If the name is taken, a body is none of the mechanism's, or all together have no mass.
+            If the name is taken, a body does not belong to the mechanism, or the bodies have no mass.
 
         Examples
         --------
@@ -255,6 +255,6 @@ class BodyVerbs(Elements):
 
 def _amount(quantity: str, name: str, value: Any) -> float:
     checks.constant(f"{quantity} of {name!r}", value,
-                    "what is lost or joins takes momentum along. Give the initial mass m0, and in each direction force(), whose "
+                    "matter that leaves or joins carries momentum. Give the initial mass m0, and in each direction force() whose "
                     "value is (m0 - mass(t)) * a, with a the body's acceleration, and thrust and weight by others")
     return checks.number(f"{quantity} of {name!r}", value, least=0)

@@ -23,9 +23,9 @@ DRIVES = {"angle": ("angle",), "displacement": ("displacement",), "speed": ("ang
 class ForceVerbs(Elements):
     """Methods of `Mechanism` that add drives, springs and forces.
 
-    A callable that gives a force or a motion receives by argument name what it wants: ``t``, parameters, and the measures that
-    ``of=`` binds to names. It is recorded, if it can be: what it computes becomes a formula that the core evaluates, as that of
-    an expression. Numbers that it reads from outside count as they are when the mechanism's system is made, by `simulate` or
+    A callable that gives a force or a motion receives its arguments by name: ``t``, parameters, and the measures that ``of=``
+    binds to names. It is recorded, if possible: its computation becomes a formula that the core evaluates, as that of an
+    expression. Numbers that it reads from outside count as they are when the mechanism's system is made, by `simulate` or
     `Run`; ``inputs=`` of a run changes numbers within it. A function with state, random numbers, conversions (``int``,
     ``round``), ``try``, or calls of other libraries is called instead, up to ninety times slower, and can be neither compiled,
     saved nor exported; ``print(m)`` has the reason.
@@ -69,7 +69,7 @@ class ForceVerbs(Elements):
         ------
         TypeError, ValueError
             If not one of the five is given, the joint has no such coordinate, another motor prescribes its motion already, or a
-            callable asks for what there is not.
+            callable has an argument that is not available.
 
         Examples
         --------
@@ -90,13 +90,13 @@ class ForceVerbs(Elements):
         drives = words[0]
         joint, which = self._joint_angle(f"joint of motor {name!r}", joint, DRIVES[drives])
         if joint.coordinate is None and drives == "speed" and which is None:
-            raise WrongValue(f"{joint.name!r} has {' and '.join(joint.coordinates)}: motor {name!r} must say which, not speed",
-                             "missing-argument")
+            raise WrongValue(f"motor {name!r}: joint {joint.name!r} has two coordinates, {' and '.join(joint.coordinates)}; give "
+                             "displacement= or angle= instead of speed=", "missing-argument")
         is_effort = drives in ("torque", "force")
         law = self._law(f"{drives} of motor {name!r}", given[drives], of, positions=not is_effort, reactions=is_effort,
                         own=joint if is_effort else None, which=which)
         if drives in ("angle", "displacement") and law.measures:
-            raise WrongValue(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()",
+            raise WrongValue(f"{law.what} must be a function of t, and depends on {', '.join(law.measures)}: use constraint()",
                              "user-function")
         motor = Motor(name, joint, drives, law, which)
         rival = next((other for other in self.motors if other.joint is joint and other.prescribes
@@ -149,7 +149,7 @@ class ForceVerbs(Elements):
         Raises
         ------
         TypeError, ValueError
-            If not one of length and force is given, or a callable asks for what there is not.
+            If not one of length and force is given, or a callable has an argument that is not available.
 
         Examples
         --------
@@ -170,7 +170,7 @@ class ForceVerbs(Elements):
         law = self._law(f"{drives} of actuator {name!r}", given, of, reactions=drives == "force",
                         own=Actuator(name, first, second, drives, None) if drives == "force" else None)
         if drives == "length" and law.measures:
-            raise WrongValue(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()",
+            raise WrongValue(f"{law.what} must be a function of t, and depends on {', '.join(law.measures)}: use constraint()",
                              "user-function")
         if drives == "length" and law.constant is not None:
             checks.number(law.what, law.constant, above=0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import keyword
 import re
 from collections.abc import Iterable, Mapping
@@ -12,6 +13,7 @@ import numpy as np
 from ..._private import checks
 from ..._private.gateway.mechanisms.element_tables import MAX_READS
 from ..._private.types import Bindings, LawLike
+from ..._private.verbs import verb
 from ...errors import WrongName, WrongType, WrongValue
 from ...laws.table import Table
 from ...systems.user_callables import arguments
@@ -30,6 +32,12 @@ class Elements:
 
     name: str
     dimension: int
+
+    def __init_subclass__(cls) -> None:
+        """Let errors of arguments name the method."""
+        for name, method in list(vars(cls).items()):
+            if inspect.isfunction(method) and not name.startswith("_"):
+                setattr(cls, name, verb(method))
 
     def __init__(self, parameters: Any) -> None:
         self.ground = SpaceGround() if self.dimension == 3 else Ground()
@@ -91,7 +99,7 @@ class Elements:
     def _in_the_plane(self, what: str) -> None:
         """Check that the mechanism is planar, for elements that exist in the plane only."""
         if self.dimension == 3:
-            raise WrongValue(f"{what} is there for mechanisms in the plane, not yet in space", "wrong-dimension")
+            raise WrongValue(f"{what} is available for mechanisms in the plane, not in space", "wrong-dimension")
 
     def measure(self, name: str, value: LawLike, *, of: Bindings | None = None, unit: str = "") -> Measure:
         """Add a measure of one's own: a function of time, parameters and other measures, which acts on nothing.
@@ -115,7 +123,7 @@ class Elements:
         Raises
         ------
         TypeError, ValueError
-            If the callable asks for what there is not, or for another measure of one's own.
+            If an argument of the callable is not available, or is another measure of one's own.
 
         Examples
         --------

@@ -27,7 +27,7 @@ class StartVerbs(Elements):
         self._is_balanced = False
 
     def start(self, held: Values | None = None, *, wish: Values | None = None, equilibrium: bool | None = None) -> None:
-        """Set initial positions and velocities; all else starts as drawn and at rest, unless a loop must move with it.
+        """Set initial positions and velocities. Other coordinates start as drawn and at rest, as far as loops and drives allow.
 
         Joint coordinates that neither values given here nor drives force stay as in the drawing with its joints closed, and
         their rates are zero: the angle of a pendulum on a cart does not change with the cart's place. Coordinates of a loop or a
@@ -47,7 +47,7 @@ class StartVerbs(Elements):
         ----------
         held : dict of measure to value
             Values to satisfy: positions and velocities by object or by name, components or vectors; of a body in space its
-            ``rotation``, too, as a matrix or a unit quaternion. Later calls add and replace; None as a value takes back.
+            ``rotation``, too, as a matrix or a unit quaternion. Later calls add and replace values; None removes one.
         wish : dict of measure to value
             Values to approach as nearly as possible after that.
         equilibrium : bool, optional

@@ -11,6 +11,7 @@ are only those whose arguments no entry of a table describes:
 
 from __future__ import annotations
 
+from ..._private.verbs import verb as named
 from ..elements.forces import Bushing, Spring, TorsionSpring
 from ..elements.joints import BY_ROW, Joint, KnifeEdge, Prismatic, Revolute, Rod, Slot, Weld
 from ..elements.space_joints import BY_KIND
@@ -30,6 +31,6 @@ class TableVerbs(Elements):
 
 
 for _kind in JOINTS:
-    setattr(TableVerbs, _kind, verb(PLANE.get(_kind), BY_KIND.get(_kind)))
+    setattr(TableVerbs, _kind, named(verb(PLANE.get(_kind), BY_KIND.get(_kind))))
 for _kind, _force in FORCES.items():
-    setattr(TableVerbs, _kind, force_verb(_force))
+    setattr(TableVerbs, _kind, named(force_verb(_force)))

@@ -100,8 +100,8 @@ class Law:
     def _wanted(self, name: str, bound: Mapping[str, str], parameters: Mapping[str, float]) -> str:
         """Name of an expression, checked; those in `of` stand for their measures."""
         if name != "t" and "." not in name and name not in bound and name not in parameters:
-            raise WrongType(f"{self.what} asks for {name!r}; there is {', '.join(['t', *parameters, *bound])}, and measures",
-                            "user-function")
+            raise WrongType(f"{self.what} has the argument {name!r}; available are {', '.join(['t', *parameters, *bound])}, and "
+                            "measures", "user-function")
         return name
 
     def record(self, parameters: Mapping[str, float]) -> None:

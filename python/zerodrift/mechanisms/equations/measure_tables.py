@@ -40,7 +40,7 @@ def measuring(tables: Tables, only: Collection[str] | None = None) -> MechanismC
     core = tables.core(*read(tables, only))
     for name in tables.drawing.reactions() if only is None else ():
         if name not in core.tables.reactions:
-            raise WrongValue(f"user functions must depend on scalar measures, and {name!r} is none; "
+            raise WrongValue(f"user functions must depend on scalar measures, and {name!r} is not one; "
                              f"{checks.closest(name, [each.name for each in core.measures])}", "wrong-measure")
     return core
 

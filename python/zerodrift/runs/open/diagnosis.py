@@ -21,9 +21,8 @@ from ..states import branches
 # harm, as long as no single one of them has to take out more than the second limit.
 SMALLEST_PIVOT, LARGEST_ENERGY_ERROR, LARGEST_ENERGY_CORRECTION, ENERGY_ROUNDING = gateway.WARNING_LIMITS
 POSITION_ROUNDING = 1e-14   # relative to the size of a system: rounding of positions that are corrected in each step
-TOO_COARSE = ("steps are too long for what happens in some of them; take shorter ones, a method of higher order, or rtol instead "
-              "of step")
-TOO_LOOSE = ("the tolerances are too loose for what happens in some steps; take a smaller rtol and atol, or max_step where "
+TOO_COARSE = "some steps are too long to resolve the motion; use shorter ones, a method of higher order, or rtol instead of step"
+TOO_LOOSE = ("the tolerances are too loose to resolve the motion in some steps; use a smaller rtol and atol, or max_step if "
              "something acts for a short time")
 OTHER_ENERGY = "; or potential and power are not those of the forces: zd.check(system) compares them"
 CATEGORIES = (AccuracyWarning, CorrectionWarning, LockedWarning, StabilityWarning)
@@ -192,5 +191,5 @@ def _unresolved_part(solution: Solution) -> str:
     parts = [*(system.velocities if has_rates else system.coordinates), *(system.coordinates[q] for q in system.quaternions)]
     part = parts[stats["part"]]
     unit = "of the mechanism's length" if gateway.is_length(part) else "rad"
-    return (f"the steps do not resolve the motion of {part.name!r}: errors of {stats['part_error']:.2g} {unit} add up in it, "
-            f"noticed first at t = {stats['unresolved_time']:.6g}")
+    return (f"the steps do not resolve the motion of {part.name!r}: its accumulated error reaches {stats['part_error']:.2g} "
+            f"{unit}; first detected at t = {stats['unresolved_time']:.6g}")

@@ -9,7 +9,7 @@ import numpy as np
 from ... import units
 from ..._private import checks
 from ..._private.types import ArrayLike, Display, MeasureLike
-from ...errors import WrongType
+from ...errors import WrongName, WrongType
 from .columns import imported
 
 
@@ -51,7 +51,8 @@ class Loads:
         """Loads of a joint by "force" and "moment"."""
         found = {row.quantity: row for row in self.rows if row.joint == getattr(joint, "name", joint)}
         if not found:
-            raise KeyError(checks.closest(str(joint), [row.joint for row in self.rows]))
+            raise WrongName(f"no joint is called {joint!r}; {checks.closest(str(joint), [row.joint for row in self.rows])}",
+                            "wrong-name")
         return found
 
     def to_frame(self) -> Any:

@@ -106,7 +106,7 @@ def _assembled(system: Any, held: Any, v: Any, hold: Any, wish: Any, nudge: floa
         raise WrongType("p of a mechanism must be a dict of values by measure, positions and velocities, without v and hold")
     if not hasattr(system, "_assembled"):
         raise WrongType("p must hold real numbers, not object: a dict of values by measure is for mechanisms, "
-                        f"and {system.name} is none")
+                        f"and {system.name} is not one")
     return system._assembled(held, wish, nudge, t)
 
 

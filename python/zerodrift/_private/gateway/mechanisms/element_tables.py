@@ -163,8 +163,8 @@ def _reading(tables: Any) -> tuple[Any, Any]:
 
 def _place(measure: str, read: str, places: dict[str, tuple[int, int]]) -> tuple[int, float]:
     if read not in places:
-        raise WrongValue(f"measure {measure!r} must be of scalar measures, and {read!r} is none; {checks.closest(read, places)}",
-                         "wrong-measure")
+        raise WrongValue(f"measure {measure!r} must depend on scalar measures, and {read!r} is not one; "
+                         f"{checks.closest(read, places)}", "wrong-measure")
     return places[read]
 
 
