@@ -163,7 +163,7 @@ def test_files_of_space_and_other_elements_that_read_it(tmp_path):
     ({"force": 1.0}, "shape", "one law for each of 2 directions"),
     ({"force": (1.0, 2.0, 3.0)}, "shape", "one law for each of 2 directions"),
     ({"of": {"x": "one.position.x"}}, "conflicting-arguments", "of of bushing 'mount' goes with force"),
-    ({"force": lambda length: (0, 0)}, "user-function", "force of bushing 'mount' asks for 'length'"),
+    ({"force": lambda length: (0, 0)}, "user-function", "force of bushing 'mount' has the argument 'length'"),
     ({"stiffness": lambda t: 5.0}, "wrong-type", r"lambda t, displacement: -k\(t\)")])
 def test_refusals(given, code, sentence):
     with refused(code, sentence):

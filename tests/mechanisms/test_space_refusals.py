@@ -107,7 +107,7 @@ def joined(axis=(0, 0, 1)):
 
 def test_motors_say_which_coordinate():
     m = joined()
-    with refused("missing-argument", "'B'.*'drive'"):
+    with refused("missing-argument", "'drive'.*'B'"):
         m.motor("drive", "B", speed=1.0)
     m.motor("turn", "B", angle=lambda t: t)
     m.motor("push", "B", displacement=lambda t: t**2)

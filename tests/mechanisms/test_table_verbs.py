@@ -62,7 +62,7 @@ def test_the_declarations_for_editors_are_those_of_the_methods():
 
 @pytest.mark.parametrize(("call", "code", "text"), [
     (lambda m, a, b: m.revolute("A", a, b, at=(0, 0), axis=(1, 0)), "wrong-dimension", "'A'"),
-    (lambda m, a, b: m.prismatic("A", a, b), "wrong-type", "'axis'"),
+    (lambda m, a, b: m.prismatic("A", a, b), "wrong-type", "axis"),
     (lambda m, a, b: m.rod("A", a, b.center), "wrong-element", "first.*'a'"),
     (lambda m, a, b: m.rod("A", a.center, b.center, at=(0, 0)), "wrong-type", "'at'"),
     (lambda m, a, b: m.weld("A", a, b, at=(0, 0), cut=1), "wrong-type", "'A'"),

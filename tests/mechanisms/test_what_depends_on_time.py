@@ -159,7 +159,7 @@ def test_gravity_as_functions_expressions_and_tables(given, parameters, fallen):
 
 
 @pytest.mark.parametrize(("given", "code", "sentence"), [
-    (lambda x: (0, x), "user-function", "gravity asks for 'x'"),
+    (lambda x: (0, x), "user-function", "gravity has the argument 'x'"),
     ((0, lambda t: t, 0), "shape", "one law for each of 2 directions")])
 def test_gravity_that_is_refused(given, code, sentence):
     with refused(code, sentence):

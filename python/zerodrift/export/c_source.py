@@ -16,6 +16,13 @@ from ..errors import ExistingFile
 from .block import Chosen, choose, written
 from .core_files import ENTRIES, CoreFiles, entry
 
+MAKEFILE = """CFLAGS = -O2 -std=c11 -ffp-contract=off -I.
+OBJECTS := $(patsubst %.c,%.o,$(shell find . -name '*.c'))
+
+main: $(OBJECTS)
+\t$(CC) -o $@ $(OBJECTS) -lm
+"""
+
 
 def c_source(system: SystemLike, folder: str | Path, *, step: float, outputs: Measures = (),
              p0: ArrayLike | None = None, v0: ArrayLike | None = None, t0: float = 0.0, inputs: Sequence[str] = (),
@@ -23,8 +30,9 @@ def c_source(system: SystemLike, folder: str | Path, *, step: float, outputs: Me
     """Write a mechanism as a folder of C11 sources, with a program that simulates it.
 
     The folder has the files of the core that this mechanism and its methods need, the mechanism as one block (see `block`)
-    in ``data.h``, and a short ``main.c`` with the memory of a sample in ``sample.h``. They need a C compiler and its standard
-    library, and nothing else; all memory is allocated before the first step, except for reactions of redundant constraints.
+    in ``data.h``, a short ``main.c`` with the memory of a sample in ``sample.h``, and a ``Makefile``: ``make -j`` compiles them
+    on all processors. They need a C compiler and its standard library, and nothing else; all memory is allocated before the
+    first step, except for reactions of redundant constraints.
     ``main T`` simulates T seconds and prints t and the outputs with 17 digits, one line for each step. Compiled with
     ``-ffp-contract=off``, its numbers have the bits of `simulate` with ``vector="baseline"`` and
     ``closed_form=False``.
@@ -73,6 +81,7 @@ def c_source(system: SystemLike, folder: str | Path, *, step: float, outputs: Me
     write_core(made, folder)
     for name in ("main.c", "sample.h"):
         (folder / name).write_text(resources.files(__package__).joinpath(name).read_text(encoding="utf-8"), encoding="utf-8")
+    (folder / "Makefile").write_text(MAKEFILE, encoding="utf-8")
     return folder
 
 

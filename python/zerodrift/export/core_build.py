@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import io
 import os
 import subprocess
 import tempfile
+import time
+import zipfile
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 from types import MappingProxyType
 
 from ..errors import CompilationFailed
 from ..symbolics.compile import cache
-from .core_files import CoreFiles
+from ..symbolics.progress_message import Progress
+from .core_files import CoreFiles, included
+
+EVERY = 5.0         # s between messages
+LATEST = 1000       # objects that are kept
 
 
 def compiled(files: CoreFiles, command: Sequence[str], options: Sequence[str], *, join: Sequence[str], product: str,
@@ -28,25 +35,62 @@ def compiled(files: CoreFiles, command: Sequence[str], options: Sequence[str], *
     key = f"core-{cache.digest_of(list(command), list(options), list(join), files.texts, dict(more))}"
     found = cache.get(key)
     if found is None:
-        with tempfile.TemporaryDirectory() as name:
+        with tempfile.TemporaryDirectory() as name, Progress("core", shown=True) as say:
             here = Path(name)
             files.write(here)
             for file, text in more.items():
                 (here / file).write_text(text, encoding="utf-8")
-            found = _made([*files.sources, *more], here, [*command, *options], join, product)
+            objects = _objects(_digests(files, more), here, [*command, *options], say)
+            say("joining objects")
+            run([*join, product, *objects], here)
+            found = (here / product).read_bytes()
         cache.put(key, found)
     return found
 
 
-def _made(sources: Sequence[str], here: Path, compiling: Sequence[str], join: Sequence[str], product: str) -> bytes:
-    def compile_one(number: int) -> str:
-        run([*compiling, "-I.", "-c", "-o", f"{number}.o", sources[number]], here)
-        return f"{number}.o"
+def _digests(files: CoreFiles, more: Mapping[str, str]) -> dict[str, str]:
+    """Digest of each source with the headers that it includes; that of `more` with all files."""
+    texts = files.texts
+    own = {path: {each: texts[each] for each in (path, *included(path))} for path in files.sources}
+    own |= {path: {**texts, path: text} for path, text in more.items()}
+    return {path: cache.digest_of(path, each) for path, each in own.items()}
 
+
+def _objects(sources: Mapping[str, str], here: Path, compiling: Sequence[str], say: Progress) -> list[str]:
+    """Names of the objects of sources, by their digests; those of earlier cores are taken from the cache, where all are kept."""
+    pack = f"objects-{cache.digest_of(list(compiling))}"
+    known = _unpacked(cache.get(pack))
+    names = {path: f"{number}.o" for number, path in enumerate(sources)}
+    missing = [path for path, digest in sources.items() if digest not in known]
+    for path in sources.keys() - {*missing}:
+        (here / names[path]).write_bytes(known[sources[path]])
+    said = time.monotonic()
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-        objects = list(pool.map(compile_one, range(len(sources))))
-    run([*join, product, *objects], here)
-    return (here / product).read_bytes()
+        made = [pool.submit(run, [*compiling, "-I.", "-c", "-o", names[path], path], here) for path in missing]
+        for count, one in enumerate(as_completed(made)):
+            one.result()
+            if not count or time.monotonic() - said > EVERY:
+                said = time.monotonic()
+                say(f"compiling {len(missing)} files with {Path(compiling[0]).name}, once; {count + 1} are done")
+    if missing:
+        cache.put(pack, _packed({**known, **{sources[path]: (here / names[path]).read_bytes() for path in missing}}))
+    return list(names.values())
+
+
+def _unpacked(pack: bytes | None) -> dict[str, bytes]:
+    if pack is None:
+        return {}
+    with zipfile.ZipFile(io.BytesIO(pack)) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def _packed(objects: Mapping[str, bytes]) -> bytes:
+    """Archive of the latest objects."""
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+        for name, content in list(objects.items())[-LATEST:]:
+            archive.writestr(name, content)
+    return file.getvalue()
 
 
 def run(line: Sequence[str], here: Path) -> None:

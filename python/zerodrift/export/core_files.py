@@ -52,7 +52,7 @@ def _definitions() -> dict[str, str]:
 
 
 @functools.cache
-def _included(path: str) -> frozenset[str]:
+def included(path: str) -> frozenset[str]:
     """Headers that a file includes, and those that they include."""
     found, waiting = set(), [path]
     while waiting:
@@ -76,7 +76,7 @@ def _normal(path: PurePosixPath) -> str:
 @functools.cache
 def _used(path: str) -> frozenset[str]:
     """Names that a source uses, with those in inline functions of the headers it includes, without declarations."""
-    texts = [_texts()[path], *(DECLARATION.sub("", _texts()[header]) for header in _included(path) if header != METHODS)]
+    texts = [_texts()[path], *(DECLARATION.sub("", _texts()[header]) for header in included(path) if header != METHODS)]
     return frozenset(name for text in texts for name in NAME.findall(text))
 
 
@@ -116,7 +116,7 @@ class CoreFiles:
     @property
     def paths(self) -> list[str]:
         """Sources and headers."""
-        return sorted({*self.sources, *(header for source in self.sources for header in _included(source))})
+        return sorted({*self.sources, *(header for source in self.sources for header in included(source))})
 
     def write(self, to: Path) -> None:
         """Write sources and headers into a folder."""
