@@ -200,8 +200,9 @@ def films(folder: Path) -> Iterable[tuple[str, Iterable[str]]]:
 
 def plotted(sol: zd.Solution) -> list[str]:
     """The measure that a page plots: what drives the mechanism, otherwise the force of its first joint, or its first coordinate."""
-    driving = [name for name in sol.measures if name.endswith(".torque") and sol[name].ndim == 1 and abs(sol[name]).max() > 1e-9]
-    forces = [name for name in sol.measures if name.endswith(".force")]
+    names = [name for name in sol.measures if not name.startswith("ground.")]
+    driving = [name for name in names if name.endswith(".torque") and sol[name].ndim == 1 and abs(sol[name]).max() > 1e-9]
+    forces = [name for name in names if name.endswith(".force")]
     return [next(iter([*reversed(driving), *forces]), sol.system.coordinates[0].name)]
 
 

@@ -14,7 +14,8 @@ const rangeOf = (lines, log) => {
   let low = known.reduce((a, b) => Math.min(a, b), Infinity), high = known.reduce((a, b) => Math.max(a, b), -Infinity);
   if (!known.length) [low, high] = [0, 1];
   if (log) return [Math.floor(low), Math.max(Math.ceil(high), Math.floor(low) + 1)];
-  const room = Math.max(0.05 * (high - low), 1e-9 * Math.max(Math.abs(low), Math.abs(high)), 1e-12);
+  const largest = Math.max(Math.abs(low), Math.abs(high)), isConstant = high - low < 1e-6 * largest || !largest;       // rounding is not drawn
+  const room = isConstant ? 0.5 * largest || 1 : 0.05 * (high - low);
   return [low - room, high + room];
 };
 const graph = (element, {tones, fit}, lines, {from, to, now = null, log = false, key = null}) => {
