@@ -392,7 +392,7 @@ def test_hinges_at_one_place_share_a_label():
     for i in range(3):
         m.revolute(f"J{i}", m.ground, m.link(f"link{i}", (0, 0), (1, i - 1), mass=1.0).start)
     written = [text.get_text() for text in zd.plot.mechanism(m, names=True).texts]
-    assert sorted(written) == ["J0, J1, J2", "link0", "link1", "link2"]
+    assert sorted(written) == ["J0\nJ1\nJ2", "link0", "link1", "link2"]
 
 
 def test_nothing_to_draw_is_drawn_too():

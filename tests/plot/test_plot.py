@@ -363,3 +363,27 @@ def test_room_for_a_legend_does_not_grow_with_each_curve(bar):
     plot.violation(bar, positions=False, label="one", ax=ax)
     plot.violation(bar, positions=False, label="one", ax=ax)
     assert ax.get_ylim()[1] < 10 * once[1]
+
+
+def test_energies_of_several_runs_have_one_axis():
+    """Logarithmic where they differ by more than a factor of 100."""
+    bar = zd.models.four_bar()
+    runs = [zd.simulate(bar, 0.5, step=0.01, integrator=each) for each in ("heun", "rk4")]
+    alike, apart = (zd.plot.energy_violation(each) for each in ([runs[0], runs[0]], runs))
+    assert (alike.get_yscale(), apart.get_yscale()) == ("linear", "log")
+    assert [line.get_label() for line in alike.lines] == ["heun", "heun"]
+    assert {"heun", "rk4"} <= {line.get_label() for line in apart.lines}
+    assert np.asarray(apart.lines[0].get_ydata())[1:] == pytest.approx(np.abs(runs[0].energy_violation)[1:])
+    plt.close("all")
+
+
+def test_a_mode_has_its_position_at_rest_and_both_extremes():
+    bar = zd.models.four_bar()
+    ax = zd.plot.mode(zd.linearize(bar, zd.equilibrium(bar)))
+    rest, one, other = (np.asarray(line.get_data()) for line in ax.lines[-3:])
+    assert [line.get_label() for line in ax.lines[-3:]] == ["at rest", "one extreme", "other extreme"]
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["at rest", "one extreme", "other extreme"]
+    far = np.nanmax(np.abs(one - rest))
+    assert far > 0.01
+    assert np.nanmax(np.abs(one + other - 2 * rest)) < far
+    plt.close("all")

@@ -75,7 +75,7 @@ class Names:
                 named.add(shape.name)
                 place = tuple(np.round(shape.points[0] / (0.1 * size)))
                 if NAMED[shape.kind] == "pin" and place in at:      # hinges of several bodies at one place
-                    at[place].set_text(f"{at[place].get_text()}, {shape.name}")
+                    at[place].set_text(f"{at[place].get_text()}\n{shape.name}")
                     continue
                 offset = self._offset(shape, shapes)
                 text = ax.text(0, 0, shape.name, fontsize=font, zorder=6, path_effects=halo(0.25 * font), label="_name",

@@ -20,6 +20,8 @@ from ..studies.reference import Reference
 from . import style as _style
 from .dense_samples import dense
 
+APART = 100.0           # ratio of the energy violations of runs from which their axis is logarithmic
+
 
 @units.displayed
 def motion(sol: Solution, names: str | Sequence[str] | None = None, ax: Axes | None = None, *, display: Display | None = None,
@@ -205,18 +207,19 @@ def energy(sol: Solution, ax: Axes | None = None, *, display: Display | None = N
 
 
 @units.displayed
-def energy_violation(sol: Solution, ax: Axes | None = None, *, log: bool = False, display: Display | None = None,
-                     **style: Any) -> Axes:
-    """Draw the violation of the energy balance, (28), over time.
+def energy_violation(sol: Solution | Sequence[Solution], ax: Axes | None = None, *, log: bool | None = None,
+                     display: Display | None = None, **style: Any) -> Axes:
+    """Draw the violation of the energy balance, (28), over time, of one run or of several.
 
     Parameters
     ----------
-    sol : Solution
-        Data.
+    sol : Solution, or sequence of these
+        Data. Several are named by their integrators.
     ax : Axes, optional
         Axes to draw into; by default those of a new figure.
-    log : bool
-        True: draw its magnitude on a logarithmic scale, exact zeros as triangles on the lower edge.
+    log : bool, optional
+        True: draw its magnitude on a logarithmic scale, exact zeros as triangles on the lower edge. Left out: where the largest
+        magnitudes of several runs differ by more than a factor of 100.
     display : dict of str to str, optional
         Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
     **style
@@ -238,10 +241,17 @@ def energy_violation(sol: Solution, ax: Axes | None = None, *, log: bool = False
     >>> ax.get_ylabel()
     'energy violation [J]'
     """
-    *_, violation = _energies(sol)
+    several: list[Any] = list(sol) if isinstance(sol, list | tuple) else [sol]
+    values = [_energies(each)[2] for each in several]
+    sizes = [float(np.abs(each).max(initial=0.0)) for each in values]
+    if log is None:
+        log = len(several) > 1 and max(sizes) > APART * min(sizes)
     ax, of = _style.axes(ax), units.shown("J")
-    _style.line(ax, _style.time(sol), of.factor * violation, log, **style)
-    return _style.finished(ax, f"{'|energy violation|' if log else 'energy violation'} [{of.unit}]", legend="label" in style)
+    for each, violation in zip(several, values, strict=True):
+        label = {"label": str(each.settings["integrator"])} if len(several) > 1 else {}
+        _style.line(ax, _style.time(each), of.factor * violation, log, **label | style)
+    has_legend = len(several) > 1 or "label" in style
+    return _style.finished(ax, f"{'|energy violation|' if log else 'energy violation'} [{of.unit}]", legend=has_legend)
 
 
 @units.displayed

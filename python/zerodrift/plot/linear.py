@@ -16,12 +16,14 @@ from ..errors import WrongValue
 from . import style as _style
 from .drawing import still_picture
 
-PHASES = (0.0, 0.25, 0.5, 0.75)     # of a period, drawn pale
+EXTREMES = (0.0, 0.5)      # phases of a period
+LOOKS = (("at rest", "black", "-", 1.0), ("one extreme", _style.COLOURS[1], "-", 1.4),
+         ("other extreme", _style.COLOURS[0], "--", 1.4))       # label, colour, line and its width
 STILL = 0.01        # of the amplitude: a displaced position that covers that of reference
 
 
 def mode(lin: Linearization, index: int = 0, ax: Axes | None = None, *, amplitude: float = 0.2, **style: Any) -> Axes:
-    """Draw the shape of a mode: the position of reference, and faintly, with lines, displaced ones at quarters of a period.
+    """Draw the shape of a mode: the position at rest, and as lines the two extremes, half a period apart.
 
     Parameters
     ----------
@@ -33,7 +35,7 @@ def mode(lin: Linearization, index: int = 0, ax: Axes | None = None, *, amplitud
     amplitude : float
         The largest change of a coordinate, in rad or characteristic lengths.
     **style
-        For ``ax.plot`` of the lines of the displaced positions.
+        For ``ax.plot`` of the lines of the extremes.
 
     Returns
     -------
@@ -60,12 +62,15 @@ def mode(lin: Linearization, index: int = 0, ax: Axes | None = None, *, amplitud
     if reference is None:
         raise WrongValue(f"{lin.system.name} must have a drawing for its modes to be drawn, and has none", "not-available")
     amplitude = checks.number("amplitude", amplitude, above=0)
-    positions = [p for p in mode_positions(lin, int(index), amplitude, PHASES) if np.abs(p - lin.p).max() > STILL * amplitude]
+    positions = mode_positions(lin, int(index), amplitude, EXTREMES)
     ax = still_picture(lin.system, [lin.p, *positions], ax)
-    look: dict[str, Any] = {"color": _style.COLOURS[1], "alpha": 0.6, "linewidth": 1.0, "zorder": 20} | style
-    for points in map(lin.system.points, positions):
-        if points is not None:
-            ax.plot(*points.T, **look)
+    for i, p in enumerate((lin.p, *positions)):
+        label, colour, dashes, width = LOOKS[i]
+        points = lin.system.points(p)
+        if points is not None and (not i or np.abs(p - lin.p).max() > STILL * amplitude):
+            look: dict[str, Any] = {"color": colour, "linestyle": dashes, "linewidth": width, "zorder": 20} | (style if i else {})
+            ax.plot(*points.T, label=label, **look)
+    _style.legend_above(ax)
     value = lin.eigenvalues[index]
     damping = lin.damping[index] if abs(lin.damping[index]) > EIGENVALUE_ROUNDING else 0.0
     pair = f"{lin.frequencies[index]:.4g} Hz, damping ratio {damping:.3g}"

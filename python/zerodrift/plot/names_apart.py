@@ -25,10 +25,11 @@ def keep_apart(ax: Axes, texts: Sequence[Text]) -> None:
         ax.apply_aspect()
     boxes = [(text, _box(ax, text, projection)) for text in texts if text.get_visible()]
     for text, (x, y, width, height) in sorted(boxes, key=lambda each: -each[1][1]):
-        free = (k for k in _shifts() if not any(_overlap((x, y + k * height, width, height), other) for other in placed))
+        step = height / len(text.get_text().split("\n"))
+        free = (k for k in _shifts() if not any(_overlap((x, y + k * step, width, height), other) for other in placed))
         shift = next(free, 0)
-        placed.append((x, y + shift * height, width, height))
-        text.set_transform(ax.transData + ScaledTranslation(0, shift * height / ax.figure.dpi, ax.figure.dpi_scale_trans))
+        placed.append((x, y + shift * step, width, height))
+        text.set_transform(ax.transData + ScaledTranslation(0, shift * step / ax.figure.dpi, ax.figure.dpi_scale_trans))
 
 
 def _box(ax: Axes, text: Any, projection: np.ndarray | None) -> tuple[float, float, float, float]:
@@ -36,7 +37,8 @@ def _box(ax: Axes, text: Any, projection: np.ndarray | None) -> tuple[float, flo
     place = text.get_position() if projection is None else proj3d.proj_transform(*text.get_position_3d(), projection)[:2]
     x, y = ax.transData.transform(place)
     letter = text.get_fontsize() * ax.figure.dpi / 72
-    width, height = LETTER * letter * len(text.get_text()), LINE * letter
+    lines = text.get_text().split("\n")
+    width, height = LETTER * letter * max(map(len, lines)), LINE * letter * len(lines)
     left = {"left": 0.0, "center": 0.5, "right": 1.0}[text.get_horizontalalignment()]
     below = {"top": 1.0, "center": 0.5}.get(text.get_verticalalignment(), 0.0)
     return x - left * width, y - below * height, width, height

@@ -16,6 +16,7 @@ from .style import COLOURS
 
 JOINTS = 12     # the most points that are drawn as joints; more points are taken for a curve
 NARROWEST = 0.25    # of the longest axis in space: shortest one
+ZOOM = 0.86         # of a picture in space
 RESTING = 1e-6  # of the drawing: what moves by less rests
 
 
@@ -101,6 +102,8 @@ def with_equal_scales(ax: Axes) -> Axes:
                 getattr(ax, f"set_{axis}lim")((low + high - narrowest) / 2, (low + high + narrowest) / 2)
                 getattr(ax, f"{axis}axis").set_major_locator(MaxNLocator(2))
     ax.set_aspect("equal", adjustable="box")
+    if ax.name == "3d":     # with room for the names of the axes
+        ax.set_box_aspect(ax._box_aspect, zoom=ZOOM)        # type: ignore[attr-defined,call-arg]
     return ax
 
 

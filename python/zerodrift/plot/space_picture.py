@@ -32,6 +32,7 @@ DARKEST, BRIGHTEST = 0.72, 1.08     # shares of a face's colour: edge-on to the 
 FACES = np.array([(0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5)])     # of a box's corners
 MAX_NAMES = 40     # more would hide the picture
 TICKS = 4           # of each axis, at most
+BEFORE = 0.02       # of the depth of the picture: by which pins stand before bars
 MAX_PIECES = 240   # of a picture that are ordered by depth individually
 PART = 3.0          # longest part of a bar, in sizes
 ROUND = [patheffects.Stroke(linewidth=5.4, foreground="#40505F"), patheffects.Stroke(linewidth=4.0, foreground="#8C9CAD"),
@@ -90,6 +91,14 @@ def _spring(points: np.ndarray, size: float) -> list[np.ndarray]:
     turns = 2 * np.pi * COILS * s
     around = np.outer(radius * np.cos(turns), side) + np.outer(radius * np.sin(turns), np.cross(along, side))
     return [start + np.outer(s, end - start) + around]
+
+
+class InFront(Line3DCollection):
+    """Lines that stand before bars and faces at their place."""
+
+    def do_3d_projection(self) -> Any:
+        """Depth by which artists are ordered."""
+        return super().do_3d_projection() - BEFORE
 
 
 class Glyph(NamedTuple):
@@ -198,7 +207,7 @@ class SpacePicture:
                 found += self.ax.plot([], [], [], linestyle="", label=f"_{kind}", **DOTS[kind])
             else:
                 glyph = GLYPHS[kind]
-                collection = Poly3DCollection if glyph.is_face else Line3DCollection
+                collection = Poly3DCollection if glyph.is_face else InFront if kind in ("pin", "sleeve") else Line3DCollection
                 found.append(self.ax.add_collection3d(collection([np.zeros((4, 3))], label=f"_{kind}", **glyph.looks)))
         return found
 
