@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 import time
+import unicodedata
 from pathlib import Path
 
 import matplotlib
@@ -74,6 +75,8 @@ def test_pages_need_no_network_and_pictures_have_words(site):
     equations = (site / "theory" / "computation.html").read_text(encoding="utf-8")
     assert equations.count("<math") > 60
     assert 'id="equation-25a"' in equations
+    for letter in ("CAPITAL PHI", "SMALL LAMDA", "CAPITAL M", "SMALL V"):
+        assert unicodedata.lookup(f"MATHEMATICAL BOLD ITALIC {letter}") in equations
     for written in site.rglob("*.html"):
         page = written.read_text(encoding="utf-8")
         assert not re.search(r"<(script|img|link)[^>]*(src|href)=.https?://[^>]*(\.js|\.css|\.png)", page), written.name

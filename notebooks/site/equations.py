@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import re
 
 from docutils import nodes
@@ -16,9 +17,25 @@ def mathml(text: str, display: str = "inline") -> str:
                   r'<mrow class="matrix"><mo>[</mo>\1<mo>]</mo></mrow>', convert(text, display=display))
 
 
+VECTORS = "pvuwqgMdfCADξΦΨλγμδ"       # and matrices of the page that explains a step; E is an index of a scalar
+STARTS = (("a", 0x1D482), ("A", 0x1D468), ("α", 0x1D736), ("Α", 0x1D71C))      # first letters, and those in bold italics
+
+
+def bold(page: str, equation: str) -> str:
+    """An equation with vectors and matrices in bold, on the page that explains a step."""
+    def letter(found: re.Match[str]) -> str:
+        known = html.unescape(found[1])
+        if known not in VECTORS:
+            return found[0]
+        first, start = max((each for each in STARTS if each[0] <= known), key=lambda each: each[0])
+        return f"<mi>{chr(start + ord(known) - ord(first))}</mi>"
+
+    return re.sub(r"<mi>([^<]*)</mi>(?!<mi>E)", letter, equation) if page == "theory/computation" else equation
+
+
 def inline(writer: object, node: nodes.math) -> None:
     """An equation within a line."""
-    writer.body.append(mathml(node.astext()))
+    writer.body.append(bold(writer.builder.current_docname, mathml(node.astext())))
     raise nodes.SkipNode
 
 
@@ -28,7 +45,7 @@ def block(writer: object, node: nodes.math_block) -> None:
         writer.body.append(f'<span id="{name}"></span>')
     text, number = re.subn(r"\s*\\tag\{([^}]*)\}", "", node.astext()), re.search(r"\\tag\{([^}]*)\}", node.astext())
     target = f'<a class="number" id="equation-{number[1]}" href="#equation-{number[1]}">({number[1]})</a>' if number else ""
-    writer.body.append(f'<div class="equation">{mathml(text[0], display="block")}{target}</div>')
+    writer.body.append(f'<div class="equation">{bold(writer.builder.current_docname, mathml(text[0], display="block"))}{target}</div>')
     raise nodes.SkipNode
 
 

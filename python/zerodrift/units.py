@@ -45,7 +45,7 @@ class display_units:        # noqa: N801 - called as a function
     """Choose the units in which results and pictures show quantities from now on.
 
     What is computed stays in SI units: ``sol["pin.force"]`` is in N. The choice holds for `Solution.to_csv`, `Solution.to_excel`,
-    `Solution.to_frame`, `Solution.loads`, `zerodrift.plot`, and for films, explorations and live pages that are made after it;
+    `Solution.to_frame`, `Solution.loads`, ``zerodrift.plot``, and for films, explorations and live pages that are made after it;
     their argument `display` takes precedence. Each call replaces the choice before, one without arguments by SI units. In a
     ``with`` statement the choice ends with it.
 

@@ -64,6 +64,19 @@ def test_names_do_not_lie_over_each_other(browser, tmp_path):
     assert all(a[2] < b[0] or a[0] > b[2] or a[3] < b[1] or a[1] > b[3] for i, a in enumerate(boxes) for b in boxes[:i])
 
 
+def test_a_box_that_is_turned_over_looks_different(browser, tmp_path):
+    """By its axes alone, as those of a wing nut that flips."""
+    m = zd.Mechanism("nut", dimension=3, gravity=(0, 0, 0))
+    m.body("nut", 1.0, np.diag([0.02, 0.05, 0.06]), at=(0, 0, 0))
+    seen = []
+    for turned in ([1, 0, 0, 0], [0, 0, 1, 0]):
+        sol = zd.simulate(m.system("joint"), 0.01, step=1e-3, p0=[0, 0, 0, *turned])
+        shown(browser, zd.view(sol), tmp_path)
+        seen.append(browser.evaluate("zerodrift.show(0), document.querySelector('canvas').toDataURL()"))
+    assert seen[0] != seen[1]
+    assert browser.errors == []
+
+
 def test_a_link_leads_to_a_moment_and_the_table_has_the_graphs(browser, crank, tmp_path):
     path = zd.view(crank, graphs=["crank.angle"]).save(tmp_path / "film")
     browser.open(path.as_uri() + "#t=2.5", still=False)

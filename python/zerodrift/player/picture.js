@@ -249,10 +249,10 @@ const thick = (p, half, face, edge, wide) => {      // a flat part as a solid
   face3(seen, face, edge, wide);
 };
 const axes = (p, size) => {         // of a body, from its box: x, y, z
-  const at = middleOf(p);
+  const at = middleOf(p), longest = Math.max(...[4, 2, 1].map(i => length(sub(p[i], p[0]))));
   [[4, "second"], [2, "third"], [1, "accent"]].forEach(([i, tone]) => {
     const along = sub(p[i], p[0]), far = 0.5 * length(along);
-    bar([add(at, unit(along), far), add(at, unit(along), far + 4 * size)], 0.35 * size, tones[tone], tones[tone]);
+    bar([add(at, unit(along), far), add(at, unit(along), far + 0.3 * longest)], 0.35 * size, tones[tone], tones[tone]);
   });
 };
 const faces = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
