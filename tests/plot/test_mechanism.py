@@ -67,6 +67,13 @@ def valve():
     return m
 
 
+def knob():
+    """A body without inertia on a driven hinge."""
+    m = zd.Mechanism("knob")
+    m.motor("drive", m.revolute("turn", m.ground, m.body("eye", 0.1), at=(0, 0)), angle=0.0)
+    return m
+
+
 @pytest.fixture(scope="module")
 def sol():
     return zd.simulate(sorts(), 0.3, step=0.01)
@@ -80,7 +87,8 @@ def kinds(system, name):
 
 
 def test_every_glyph_is_drawn():
-    made = {shape.kind for m in (sorts(), planetary(), steering(), valve()) for shape in shapes_at(m.system(), m.system().p0)}
+    drawn = [m.system() for m in (sorts(), planetary(), steering(), valve(), knob())]
+    made = {shape.kind for system in drawn for shape in shapes_at(system, system.p0)}
     assert made == set(GLYPHS) - {"curve", "load_symbol"}     # of systems that are drawn from points; beside arrows to scale
 
 
@@ -385,6 +393,19 @@ def test_what_travels_far_is_drawn_by_its_own_size():
     sol = zd.simulate(m, 1.0, step=0.1)
     (bar,) = outlines(zd.plot.mechanism(sol), "link")
     assert np.ptp(bar[:, 1]) < 0.2 * cart.length
+
+
+@pytest.mark.parametrize(("radius", "extent"), [(0.2, None), (0.2, 1.0), (0.2, 0.1)])
+def test_a_body_alone_is_the_disc_of_its_inertia(radius, extent):
+    """At most as large as the drawing."""
+    m = zd.Mechanism("flywheel")
+    m.body("fly", *zd.inertia.disc(mass=3.0, radius=radius), at=(1, 1))
+    if extent:
+        link = m.link("link", (0, 0), (extent, 0), mass=1.0)
+        m.revolute("pin", m.ground, link.start), m.spring("s", link.end, m.ground.point((0, 0)), stiffness=1.0)
+    shape = next(each for each in shapes_at(m.system(), m.system().p0) if each.name == "fly")
+    assert (shape.kind, shape.number) == ("wheel", pytest.approx(min(radius, extent or radius)))
+    assert shape.points[0] == pytest.approx([1, 1])
 
 
 def test_hinges_at_one_place_share_a_label():

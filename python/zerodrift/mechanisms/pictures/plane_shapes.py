@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from ...systems.shapes import Shape
-from ..elements.bodies import Ground, Particle, Point
+from ..elements.bodies import Body, Ground, Particle, Point
 from ..elements.drawing import Drawing
 from ..elements.joints import Joint, holds_angle
 from ..elements.numbers import Numbers
@@ -74,12 +74,24 @@ class Sketch:
             if len(places) > 1:
                 yield Shape("link", places, body.name, float(body.name in self.slotted))
             elif body.name not in self.has_shape:
-                yield Shape("disc", np.array([places[0], posed.direction(body, np.array([1.0, 0.0]))]), body.name)
+                radius = self._radius(body)
+                turned = np.array([places[0], posed.direction(body, np.array([1.0, 0.0]))])
+                yield Shape("wheel", turned, body.name, radius) if radius else Shape("disc", turned, body.name)
         for particle in self.parts.drawing.of(Particle):
             if particle.attachment:
                 yield Shape("particle", posed.at(particle.attachment)[None], particle.name)
         for point in self.parts.free:
             yield Shape("mark", posed.at(point)[None], point.name or "")
+
+    def _radius(self, body: Body) -> float:
+        """Radius of a uniform disc with a body's mass and inertia, at most the extent of the drawing; 0 without them."""
+        mass, inertia, _ = self.parts.inertias.of[body.name]
+        points = [point.drawn_with(self.parts.numbers) for point in self.parts.drawing.joined_points()]
+        extent = float(np.ptp(points, axis=0).max()) if len(points) > 1 else 0.0
+        if not mass > 0 or not inertia > 0:
+            return 0.0
+        radius = float(np.sqrt(2 * inertia / mass))
+        return min(radius, extent) if extent > APART else radius
 
     def _joints(self, posed: Posed, ranges: Ranges) -> Iterator[Shape]:
         for joint, kind, pinned in self.kinds:
