@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "contact/phase_system.h"
 #include "linalg/small.h"
 #include "motion/derivatives.h"
 #include "motion/motion.h"
@@ -20,14 +21,23 @@ static int finish(zd_run *run, int status, char *message, int size)
     return status;
 }
 
+static int refuse_groups(const zd_system *system, char *message, int size)
+{
+    if (!system->groups) return ZD_DONE;
+    snprintf(message, size, "a single state has no phase: contacts, stops, and joints with dry friction or that let go, such as '%s', must "
+             "be in a run, at whose samples accelerations and reactions are read", system->group[0].name);
+    return ZD_BAD_ARGUMENT;
+}
+
 /* A run at a state, with its accelerations; NULL if it could not be created, with *status */
 static zd_run *accelerated(const zd_system *system, int formulation, enum zd_on_singular on_singular, double t, const double *p,
                            const double *v, int *status, char *message, int message_size)
 {
     zd_settings settings = {.formulation = formulation, .on_singular = on_singular};
-    *status = zd_check_method(system, &settings, message, message_size);
+    *status = refuse_groups(system, message, message_size);
+    if (!*status) *status = zd_check_method(system, &settings, message, message_size);
     if (!*status) *status = zd_check_quaternions(system, p, 0, message, message_size);
-    zd_run *run = *status ? NULL : zd_run_open(system, &settings, t, p, v, status, message, message_size);
+    zd_run *run = *status ? NULL : zd_run_open(NULL, system, &settings, t, p, v, status, message, message_size);
     if (!run) return NULL;
     if (!*status) *status = zd_stepper_set_state(&run->stepper, t, p, v);
     if (!*status) *status = zd_motion_accelerate(&run->motion);
@@ -53,6 +63,48 @@ int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singul
         if (u) zd_copy_all(system->reading->functions, point->inputs, u + i * system->reading->functions);
         status = finish(run, status, message, message_size);
     }
+    return status;
+}
+
+/* Accelerations of a phase with these multipliers of all rows: those without groups, and their change by the forces of groups. */
+static int accelerate_with(zd_run *run, zd_phase_system *of, const double *multipliers, double *vdot)
+{
+    zd_motion *motion = &run->motion;
+    zd_point *point = motion->point;
+    const zd_system *full = of->full;
+    zd_copy_all(full->nv, point->vdot, vdot);
+    zd_clear(full->nv, point->force);
+    zd_clear(zd_constraints(point->system), point->rhs);
+    const int status = zd_phase_evaluate(of, ZD_C, point->t, point->p, point->v);
+    for (int g = 0; !status && g < full->groups; g++)
+        for (int k = full->group[g].first; k < full->group[g].first + full->group[g].rows; k++) {
+            const zd_row_of_C row = zd_phase_row(of, k);
+            const int is_again = g && k == full->group[g - 1].first;     /* two groups may share a row */
+            for (int j = 0; !is_again && j < row.count; j++) point->force[zd_column(&row, j)] -= row.x[j] * multipliers[k];
+        }
+    if (status) return status;
+    zd_motion_solve(motion, point->force, point->rhs, point->vdot, point->lambda);
+    for (int i = 0; i < full->nv; i++) vdot[i] += point->vdot[i];
+    return ZD_DONE;
+}
+
+int zd_accelerations_with(const zd_system *system, int formulation, int64_t states, const double *t, const double *p, const double *v,
+                          const double *multipliers, double *vdot, char *message, int message_size)
+{
+    const int64_t nq = system->nq, nv = system->nv, m = zd_constraints(system);
+    zd_arena arena = {0};
+    signed char *none = zd_allocate(system->groups);
+    zd_phase_system_create(&arena, system, none);
+    int status = none && zd_arena_allocate(&arena) ? ZD_DONE : ZD_NO_MEMORY;
+    zd_phase_system *of = status ? NULL : zd_phase_system_create(&arena, system, none);
+    for (int64_t i = 0; i < states && !status; i++) {
+        zd_run *run = accelerated(&of->system, formulation, ZD_CONTINUE, t[i], p + i * nq, v + i * nv, &status, message, message_size);
+        if (!run) break;
+        if (!status) status = accelerate_with(run, of, multipliers + i * m, vdot + i * nv);
+        status = finish(run, status, message, message_size);
+    }
+    zd_release(arena.base);
+    zd_release(none);
     return status;
 }
 
@@ -129,7 +181,7 @@ static int project_stage(const zd_system *system, const zd_settings *settings, i
     int status;
     zd_system still = *system;
     still.provides &= ~ZD_XI;       /* accelerations are not evaluated */
-    zd_run *run = zd_run_open(&still, settings, t, p, v, &status, message, message_size);
+    zd_run *run = zd_run_open(NULL, &still, settings, t, p, v, &status, message, message_size);
     if (!run) return status;
     run->motion.drifts_from = ZD_PHI | ZD_C;
     run->motion.corrects = corrects;
@@ -187,7 +239,8 @@ int zd_project(const zd_system *system, const zd_settings *settings, double t, d
     zd_store store = {NULL};
     if (iterations) *iterations = 0;
     stage.on_singular = ZD_CONTINUE;    /* the smallest correction exists at a bifurcation, too */
-    int status = zd_check_method(system, settings, message, message_size);
+    int status = refuse_groups(system, message, message_size);
+    if (!status) status = zd_check_method(system, settings, message, message_size);
     if (!status) status = zd_check_quaternions(system, p, 1, message, message_size);
     if (!status) status = project(&store, system, &stage, t, p, v, hold_p, hold_v, iterations, message, message_size);
     zd_store_release(&store);

@@ -1,6 +1,6 @@
 /* The outer loop of a run: what precedes a step, the step, events within it, samples that are due; again until the end. */
 #include "point/point.h"
-#include "run/run.h"
+#include "run/phases.h"
 #include "step/step_loop.h"
 
 enum { CLOCK_EVERY = 16 };      /* steps between readings of the clock */
@@ -23,7 +23,8 @@ static int take_step(zd_run *run)
     status = zd_step(&run->loop);
     if (status || !settings->events) return status;
     run->goal.end = run->loop.end;
-    return zd_watch_after(&run->watch, zd_step_loop_is_corrected(&run->loop), &run->loop.end);
+    status = zd_watch_after(&run->watch, zd_step_loop_is_corrected(&run->loop), &run->loop.end);
+    return status || !run->phases ? status : zd_phases_check(run);
 }
 
 static int save(zd_run *run, zd_record *record, int forced)

@@ -10,7 +10,7 @@
 static int are_known(const zd_events *events, const zd_system *system)
 {
     for (int i = 0; events && i < events->count; i++)
-        if (!zd_is_known(events, i) || zd_reads_accelerations(events, system, i)) return 0;
+        if (!zd_is_known(events, i) || zd_reads_accelerations(events, system, NULL, i)) return 0;
     return 1;
 }
 

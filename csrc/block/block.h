@@ -14,7 +14,8 @@
  *     gravity         one component each: 2 or 3 entries; and the length that moments are divided by in the least reactions
  *     bodies ...      the members of zd_plane_body, zd_plane_joint, zd_plane_quantity of mechanisms/plane/tables.h, or of zd_space_body,
  *                     zd_space_joint, zd_space_quantity of mechanisms/space/tables.h, in their order, arrays entry after entry
- *     terms ...       those of zd_quantity_term, zd_relation, zd_generalized_force and zd_output_spec of mechanisms/common/elements.h
+ *     terms ...       those of zd_quantity_term, zd_relation, zd_generalized_force, zd_output_spec and zd_element_group of
+ *                     mechanisms/common/elements.h
  *     laws            user functions, zd_expressions of laws/program.h: first instruction and number of instructions, number of marker
  *                     quantities x, first result and number of results, first number and number of numbers. There are 1 result for a
  *                     generalized force; for a relation with k terms the k + 3 that zd_law describes
@@ -36,7 +37,7 @@
  *     products        a factor, and three pairs of a parameter and its exponent; exponents 0 to 8
  *     events          of a run: enum zd_source of a quantity, p, v or a measure, its index and component, the value that it reaches, 1 from
  *                     below, -1 from above, or 0, and the occurrence that ends the run, counted from 1; 0: none
- *     actions         event, index of an input that it sets, and the value
+ *     actions         event, index of an input that it sets, or that of zd_action for a group, and the value
  *     texts           UTF-8, each ended by a zero byte, the last word filled with zero bytes; an entry is a word
  *
  * A name or unit is the offset of its text, in bytes. Kinds are numbered as in the tables of the core of this version; body 0 is the ground.
@@ -51,11 +52,11 @@
 #include "../laws/program.h"
 #include "../zerodrift.h"
 
-enum { ZD_BLOCK_VERSION = 4 };
+enum { ZD_BLOCK_VERSION = 5 };
 
 enum zd_block_section {
     ZD_BLOCK_GRAVITY, ZD_BLOCK_BODIES, ZD_BLOCK_JOINTS, ZD_BLOCK_QUANTITIES,
-    ZD_BLOCK_TERMS, ZD_BLOCK_RELATIONS, ZD_BLOCK_FORCES, ZD_BLOCK_MEASURES,
+    ZD_BLOCK_TERMS, ZD_BLOCK_RELATIONS, ZD_BLOCK_FORCES, ZD_BLOCK_MEASURES, ZD_BLOCK_GROUPS,
     ZD_BLOCK_LAWS, ZD_BLOCK_INSTRUCTIONS, ZD_BLOCK_RESULTS, ZD_BLOCK_NUMBERS, ZD_BLOCK_SPLINES, ZD_BLOCK_KNOTS,
     ZD_BLOCK_START, ZD_BLOCK_OUTPUTS, ZD_BLOCK_INPUTS, ZD_BLOCK_SETTINGS, ZD_BLOCK_METHODS, ZD_BLOCK_NAMES,
     ZD_BLOCK_PARAMETERS, ZD_BLOCK_EFFECTS, ZD_BLOCK_PRODUCTS, ZD_BLOCK_EVENTS, ZD_BLOCK_ACTIONS, ZD_BLOCK_TEXTS,

@@ -15,13 +15,13 @@ static const zd_block_dimension *const dimensions[] = {ZD_DIMENSION_LIST(ADDRESS
 
 /* Arrays of the tables, needed until the mechanism has its own. */
 typedef struct arrays {
-    void *section[ZD_BLOCK_MEASURES + 1];
+    void *section[ZD_BLOCK_GROUPS + 1];
 } arrays;
 
 static arrays create_tables(const zd_block_layout *layout, zd_arena *arena)
 {
     arrays taken = {{NULL}};
-    for (int section = ZD_BLOCK_BODIES; section <= ZD_BLOCK_MEASURES; section++) {
+    for (int section = ZD_BLOCK_BODIES; section <= ZD_BLOCK_GROUPS; section++) {
         const size_t size = zd_block_structure_in(layout, section)->size;
         taken.section[section] = zd_arena_bytes(arena, (size_t)zd_block_count(layout, section) * size);
     }
@@ -81,6 +81,7 @@ static zd_elements elements_of(zd_block *self, const arrays *from)
         .forces = zd_block_count(layout, ZD_BLOCK_FORCES), .measures = zd_block_count(layout, ZD_BLOCK_MEASURES),
         .term = from->section[ZD_BLOCK_TERMS], .relation = from->section[ZD_BLOCK_RELATIONS],
         .force = from->section[ZD_BLOCK_FORCES], .measure = from->section[ZD_BLOCK_MEASURES],
+        .groups = zd_block_count(layout, ZD_BLOCK_GROUPS), .group = from->section[ZD_BLOCK_GROUPS],
         .law = laws ? fail : NULL, .program = self->laws.program, .laws_know_time = self->laws.know_time,
         .length = layout->part[ZD_BLOCK_GRAVITY].word[layout->of->dimension]};
 }
@@ -88,7 +89,7 @@ static zd_elements elements_of(zd_block *self, const arrays *from)
 static int make(zd_block *self, const arrays *from, zd_complaint to)
 {
     const zd_elements elements = elements_of(self, from);
-    for (int section = ZD_BLOCK_BODIES; section <= ZD_BLOCK_MEASURES; section++)
+    for (int section = ZD_BLOCK_BODIES; section <= ZD_BLOCK_GROUPS; section++)
         if (!zd_block_unpack(&self->layout, section, from->section[section], to)) return 0;
     if (!laws_suit(self, &elements, to) || !zd_block_names_check(&self->layout, to)) return 0;
     if (!self->layout.of->make(self, from->section, &elements, to)) return 0;

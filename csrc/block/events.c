@@ -33,8 +33,9 @@ int zd_block_events_unpack(zd_block *block, zd_complaint to)
     }
     for (int i = 0; i < actions; i++) {
         const double *word = zd_block_entry(&block->layout, ZD_BLOCK_ACTIONS, i);
-        if (!zd_block_is_integer(word[0], 0, count) || !zd_block_is_integer(word[1], 0, zd_block_inputs(block)))
-            return zd_complain(to, "action %d: its event and its input must exist", i);
+        const int least = ZD_SWITCHES - zd_block_count(&block->layout, ZD_BLOCK_GROUPS) + 1;
+        if (!zd_block_is_integer(word[0], 0, count) || !zd_block_is_integer(word[1], least, zd_block_inputs(block)))
+            return zd_complain(to, "action %d: its event and its input or group must exist", i);
         self->action[i] = (zd_action){(int)word[0], (int)word[1], word[2]};
     }
     self->all = (zd_events){.count = count, .direction = self->direction, .terminal = self->terminal, .known = self->known,

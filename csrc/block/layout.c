@@ -9,7 +9,7 @@
 static const double LARGEST = 0x1p24;       /* whole number: sums of two are far from the range of int */
 
 static const char *const name_of_section[ZD_BLOCK_SECTIONS] = {
-    "gravity", "bodies", "joints", "marker quantities", "terms", "relations", "forces", "measures", "laws", "instructions",
+    "gravity", "bodies", "joints", "marker quantities", "terms", "relations", "forces", "measures", "groups", "laws", "instructions",
     "results", "numbers", "splines", "knots", "start", "outputs", "inputs", "settings", "methods", "names", "parameters", "effects",
     "products", "events", "actions", "texts"};
 

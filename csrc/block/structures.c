@@ -20,9 +20,19 @@ static const zd_block_structure both[] = {
         ZD_TEXT_FIELD(zd_output_spec, name), ZD_TEXT_FIELD(zd_output_spec, unit), ZD_INT_FIELD(zd_output_spec, kind),
         ZD_INT_FIELD(zd_output_spec, index), ZD_INT_FIELD(zd_output_spec, size), ZD_DOUBLES_FIELD(zd_output_spec, scale, 1),
         ZD_INT_FIELD(zd_output_spec, term)),
+    [ZD_BLOCK_GROUPS] = ZD_STRUCTURE(zd_element_group,
+        ZD_TEXT_FIELD(zd_element_group, name), ZD_INT_FIELD(zd_element_group, owner), ZD_INT_FIELD(zd_element_group, index),
+        ZD_INT_FIELD(zd_element_group, component), ZD_INT_FIELD(zd_element_group, rows), ZD_INT_FIELD(zd_element_group, kind),
+        ZD_INT_FIELD(zd_element_group, sign), ZD_INT_FIELD(zd_element_group, is_active), ZD_INT_FIELD(zd_element_group, normal),
+        ZD_INT_FIELD(zd_element_group, load_joint), ZD_INT_FIELD(zd_element_group, load_component),
+        ZD_INT_FIELD(zd_element_group, loads),
+        ZD_DOUBLES_FIELD(zd_element_group, load_factor, 3), ZD_INT_FIELD(zd_element_group, is_largest),
+        ZD_DOUBLES_FIELD(zd_element_group, scale, 1), ZD_DOUBLES_FIELD(zd_element_group, value, 1),
+        ZD_DOUBLES_FIELD(zd_element_group, restitution, 1),
+        ZD_DOUBLES_FIELD(zd_element_group, friction, 2)),
 };
 
 const zd_block_structure *zd_block_structure_of(int section)
 {
-    return section >= ZD_BLOCK_TERMS && section <= ZD_BLOCK_MEASURES ? both + section : NULL;
+    return section >= ZD_BLOCK_TERMS && section <= ZD_BLOCK_GROUPS ? both + section : NULL;
 }

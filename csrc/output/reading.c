@@ -40,11 +40,14 @@ int zd_acts(const zd_events *events, int event)
     return any;
 }
 
-int zd_reads_accelerations(const zd_events *events, const zd_system *run, int event)
+int zd_reads_accelerations(const zd_events *events, const zd_system *run, const zd_phase_system *phase, int event)
 {
     const zd_event *known = events->known ? events->known + event : NULL;
-    for (int k = 0; known && k < known->readings; k++)
-        if (is_of_accelerations(known->reading + k, (events->of ? events->of : run)->measures)) return 1;
+    for (int k = 0; known && k < known->readings; k++) {
+        const zd_argument *reading = known->reading + k;
+        if (reading->what == ZD_READS_GROUP) return zd_margin_reads_accelerations(phase, reading->index);
+        if (is_of_accelerations(reading, (events->of ? events->of : run)->measures)) return 1;
+    }
     return 0;
 }
 
@@ -57,7 +60,8 @@ static int can_be_read(const zd_argument *reading, const zd_system *run, const z
         return measures && is_within(reading->index, measures->count)
                && is_within(reading->component, measures->measure[reading->index].size);
     case ZD_READS_TIME:
-    case ZD_READS_NUMBER: break;
+    case ZD_READS_NUMBER:
+    case ZD_READS_GROUP: break;
     }
     return 1;
 }
@@ -80,8 +84,9 @@ static int read(const zd_reader *self, const void *data, const zd_argument *read
     case ZD_READS_P: *x = p[reading->index]; break;
     case ZD_READS_V: *x = v[reading->index]; break;
     case ZD_READS_NUMBER: *x = reading->number; break;
+    case ZD_READS_GROUP: return zd_phase_margin(self->point->phase, self->point, reading->index, t, p, v, x);
     case ZD_READS_MEASURE: {
-        const double *vdot = self->point ? self->point->vdot : NULL, *lambda = self->point ? self->point->lambda : NULL;
+        const double *vdot = self->point ? self->point->vdot : NULL, *lambda = self->point ? zd_point_multipliers(self->point) : NULL;
         if (self->of->measures->evaluate(data, self->inputs, reading->index, t, p, v, vdot, lambda, out, self->scratch)) return ZD_CALLBACK;
         out->is_same_state = 1;
         *x = self->measured[reading->component];

@@ -1,6 +1,7 @@
 /* Quantities that event functions read: time, coordinates, velocities and measures; and the functions that need no callback. */
 #pragma once
 
+#include "../contact/phase_system.h"
 #include "../motion/motion.h"
 #include "../point/point.h"
 #include "../workspace.h"
@@ -26,8 +27,8 @@ static inline int zd_is_known(const zd_events *events, int event)
 }
 /* True if the event has an action. */
 int zd_acts(const zd_events *events, int event);
-/* True if the event reads reactions or accelerations. */
-int zd_reads_accelerations(const zd_events *events, const zd_system *run, int event);
+/* True if the event reads reactions or accelerations, in this phase. */
+int zd_reads_accelerations(const zd_events *events, const zd_system *run, const zd_phase_system *phase, int event);
 /* *value <- that of an event, for a system with this data; ZD_CALLBACK if it is not finite, or a measure or the callback fails. Requires the
  * accelerations and multipliers at this state if it reads them. */
 int zd_read_event(const zd_reader *self, const void *data, int event, double t, const double *p, const double *v, double *value);

@@ -12,10 +12,32 @@ static void copy_sample(double *table, int64_t sample, int width, const double *
     zd_copy_few(width, values, to);
 }
 
+/* Violations of the constraints that are active, and multipliers of all. */
+static int record_phase(zd_motion *motion, zd_record *record, int64_t sample)
+{
+    zd_point *point = motion->point;
+    const zd_phase_system *phase = point->phase;
+    const int mh = phase->full->mh, m = zd_constraints(phase->full);
+    double *of_position = record->position_violation + sample * mh, *of_velocity = record->velocity_violation + sample * m;
+    const int status = zd_constraints(point->system) ? zd_point_need_times_C(point) : ZD_DONE;
+    if (status) return status;
+    zd_clear(mh, of_position);
+    zd_clear(m, of_velocity);
+    if (zd_constraints(point->system)) zd_point_velocity_violation(point, point->rhs);
+    for (int k = 0; k < zd_constraints(point->system); k++) {
+        if (k < point->system->mh) of_position[phase->row[k]] = point->terms.Phi[k];            /* (3) */
+        of_velocity[phase->row[k]] = point->rhs[k];                                             /* (5) */
+    }
+    zd_rank_find_multipliers(point);
+    copy_sample(record->multipliers, sample, m, zd_point_multipliers(point));                  /* (7) */
+    return ZD_DONE;
+}
+
 static int record_constraints(zd_motion *motion, zd_record *record, int64_t sample)
 {
     zd_point *point = motion->point;
-    int m = zd_constraints(point->system);
+    const int m = zd_point_constraints(point);
+    if (point->phase) return record_phase(motion, record, sample);
     if (!m) return ZD_DONE;
     int status = zd_point_need_times_C(point);
     if (status) return status;
@@ -71,7 +93,7 @@ static int record_outputs(const zd_recorder *self, zd_record *record, int64_t sa
     zd_rank_find_multipliers(point);
     zd_measured out = {.value = record->outputs + sample * self->width, .is_least = !zd_rank_is_deficient(point)};
     return zd_measure_states(self->measured, point->terms.inputs, self->outputs->count, self->outputs->measure, 1, &point->t, point->p,
-                             point->v, point->vdot, point->lambda, &out, self->scratch);
+                             point->v, point->vdot, zd_point_multipliers(point), &out, self->scratch);
 }
 
 int zd_recorder_add(zd_recorder *self, zd_record *record)

@@ -21,7 +21,8 @@ int zd_watch_evaluate_at(zd_watch *self, int event, const zd_state *state, doubl
 
 int zd_watch_reads_accelerations(const zd_watch *self, int event)
 {
-    return zd_reads_accelerations(self->events, &self->output->stepper->motion->system, event);
+    const zd_motion *motion = self->output->stepper->motion;
+    return zd_reads_accelerations(self->events, &motion->system, motion->point->phase, event);
 }
 
 int zd_watch_evaluate(zd_watch *self, int event, double *value)

@@ -100,6 +100,7 @@ typedef struct zd_point {
     double *force, *rhs;    /* (nv,), (m,): right-hand sides under construction */
     zd_right_side awaited;  /* right-hand side of the solve after a factorization, which can process it on the way; x NULL: not known */
     zd_rank *rank;          /* NULL if the point only evaluates terms */
+    struct zd_phase_system *phase;  /* that of its system, if that has groups: contact/phase_system.h; otherwise NULL */
     int rows, holonomic;    /* numbers of independent constraints (m without redundant ones), and of the holonomic ones, which come first */
     const double *C;        /* independent rows of C: the system's own as stored, or dense (rows, nv) */
     double *unit, *inverse_unit;    /* (nv,): characteristic scale of each velocity's displacement, see units.c; and 1 / unit */

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "../step_limits.h"
-#include "run.h"
+#include "phases.h"
 
 static const double ONE_INSTANT = 1e-9;     /* share of the time that has passed, within which an event acts at most twice */
 
@@ -14,7 +14,7 @@ int zd_run_acting(const zd_run *run) { return run->watch.calls - 1; }
 void zd_run_leave_event(zd_run *run)
 {
     zd_watch *watch = &run->watch;
-    if (!watch->ended) return;
+    if (!watch->ended && !watch->next_action) return;
     watch->disarmed = watch->ended;
     watch->ended = watch->calls = watch->next_action = 0;
     memset(watch->acts, 0, watch->events->count * sizeof *watch->acts);
@@ -45,17 +45,30 @@ int zd_run_act(zd_run *run)
     zd_watch *watch = &run->watch;
     const zd_events *events = watch->events;
     if (!watch->ended) return ZD_DONE;
-    for (int i = 0; !watch->next_action && i < events->count; i++)
+    const int own = run->phases && run->phases->own ? run->phases->own->count : run->phases ? 0 : events->count;
+    for (int i = 0; !watch->next_action && i < own; i++)
         if (watch->acts[i] && chatters(run, i)) return ZD_CHATTERS;
     watch->calls = 0;
     while (watch->next_action < events->actions) {
         const zd_action *action = events->action + watch->next_action++;
         if (!watch->acts[action->event]) continue;
+        if (action->input <= ZD_SWITCHES) {
+            const int status = zd_run_switch(run, ZD_SWITCHES - action->input, action->value != 0 ? ZD_JOINED_HERE : ZD_RELEASED);
+            if (status) return status;
+            continue;
+        }
+        if (action->input == ZD_CHANGES_PHASE) {
+            watch->next_action = events->actions;
+            const int status = zd_phases_change(run, NULL, 0);
+            if (status) return status;
+            if (!zd_watch_ends(watch)) watch->ended = 0;        /* its function has a new value, from which it is armed */
+            break;
+        }
         if (action->input >= 0) run->settings.inputs->value[action->input] = action->value;
         else watch->calls = action->event + 1;
         if (watch->calls) return ZD_PAUSED;
     }
-    if (zd_watch_ends(watch)) return ZD_DONE;
+    if (watch->ended && zd_watch_ends(watch)) return ZD_DONE;
     go_on(run);
     return ZD_PAUSED;
 }

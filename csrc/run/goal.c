@@ -114,7 +114,7 @@ int zd_run_accelerations(zd_run *run, double *vdot, double *multipliers)
     if (status) return status;
     zd_rank_find_multipliers(motion->point);
     zd_copy(motion->system.nv, motion->point->vdot, vdot);
-    zd_copy(zd_constraints(motion->point->system), motion->point->lambda, multipliers);
+    zd_copy(zd_point_constraints(motion->point), zd_point_multipliers(motion->point), multipliers);
     return ZD_DONE;
 }
 

@@ -3,7 +3,7 @@
  *
  * Characteristic scales, the initial energy and the order of pivots come from the start of the run, which is the same here.
  */
-#include "run.h"
+#include "phases.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,6 +41,10 @@ static int place(zd_resample *self, int64_t sample)
     zd_stepper *stepper = &self->run->stepper;
     const zd_saved *saved = self->saved;
     const double *p = sample_of(saved, saved->p, motion->system.nq, sample), *v = sample_of(saved, saved->v, motion->system.nv, sample);
+    if (self->run->phases) {
+        const double input = saved->input ? *sample_of(saved, saved->input, 1, sample) : 0;
+        return zd_phases_place(self->run, saved->state + sample * self->run->phases->full->groups, time_of(saved, sample), p, v, input);
+    }
     if (motion->balance.input && saved->input) stepper->y[motion->rate.size - 1] = *sample_of(saved, saved->input, 1, sample);
     return zd_stepper_set_state(stepper, time_of(saved, sample), p, v);
 }

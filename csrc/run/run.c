@@ -1,5 +1,5 @@
 /* Queries of a run: progress, message, statistics; and the table of statuses. */
-#include "run.h"
+#include "phases.h"
 
 #include <stddef.h>
 
@@ -14,8 +14,14 @@ double zd_run_progress(const zd_run *run)
 
 const char *zd_run_message(const zd_run *run) { return run->outcome.message; }
 const zd_statistics *zd_run_statistics(const zd_run *run) { return &run->motion.statistics; }
-int zd_run_redundant(const zd_run *run, int *rows) { return zd_rank_redundant(run->motion.point->rank, rows); }
-const double *zd_run_sizes(const zd_run *run) { return run->motion.point->size; }
+int zd_run_redundant(const zd_run *run, int *rows)
+{
+    const int count = zd_rank_redundant(run->motion.point->rank, rows);
+    for (int i = 0; run->phases && i < count; i++) rows[i] = run->motion.point->phase->row[rows[i]];
+    return count;
+}
+
+const double *zd_run_sizes(const zd_run *run) { return run->phases ? zd_phases_sizes(run) : run->motion.point->size; }
 const zd_energy_jump *zd_run_energy_jump(const zd_run *run) { return &run->motion.balance.jump; }
 double zd_run_kinetic(const zd_run *run) { return run->safeguards.guard.kinetic; }
 double zd_run_energy_error(const zd_run *run) { return run->tally.energy_error; }

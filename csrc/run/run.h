@@ -42,6 +42,8 @@ typedef struct zd_held_inputs {     /* inputs of the settings, as the present st
     int has_ramp;           /* true if the last step followed a speed, which is constant in the next */
 } zd_held_inputs;
 
+typedef struct zd_phases zd_phases;
+
 struct zd_run {
     zd_memory *memory;      /* its own, without what is allocated on demand */
     zd_memory *start;       /* (nq + nv,): p0 and v0, from zd_state_begin(); NULL: its state cannot be saved */
@@ -57,6 +59,7 @@ struct zd_run {
     zd_outcome outcome;
     zd_goal goal;
     zd_held_inputs held;
+    zd_phases *phases;      /* phases.h; NULL: the system has no groups */
 };
 
 /* Recomputes what the system derives from its data, after a change of inputs. */
@@ -74,9 +77,12 @@ int zd_speeds_fit(zd_run *run, double *Psi);
 void zd_speeds_say(const zd_run *run, char *to, size_t size);
 
 /* Creates a run at (t, p, v) and finds the rank of C there; the start is not checked yet. NULL without memory, with status and message;
- * otherwise `status` is that of finding the rank. */
-zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double t, const double *p, const double *v, int *status,
+ * otherwise `status` is that of finding the rank. `at`: where the run is to be; NULL: in its own memory. */
+zd_run *zd_run_open(zd_run *at, const zd_system *system, const zd_settings *settings, double t, const double *p, const double *v, int *status,
                     char *message, int size);
+
+/* Releases the memory of its components, in which a run may be itself. */
+void zd_plan_free(zd_run *run);
 
 /* Checks the start, the system and the tolerance, and prepares the first step. `status` is that of finding the rank. */
 int zd_run_start(zd_run *run, int status, const double *p0, const double *v0);

@@ -1,13 +1,14 @@
 /* Another state of a run, at its time. */
 #include "../paths/path.h"
 #include "../safeguards/safeguards.h"
-#include "run.h"
+#include "phases.h"
 
 int zd_run_set_state(zd_run *run, const double *p, const double *v)
 {
     zd_motion *motion = &run->motion;
     zd_stepper *stepper = &run->stepper;
     double before = 0, after = 0;
+    if (run->phases) return zd_phases_set_state(run, p, v);
     zd_closed_form_leave(motion);
     int status = zd_motion_balance(motion, &before);
     if (!status) status = zd_variables_use_chosen(stepper);

@@ -51,7 +51,7 @@ static violation position_violation(const zd_point *point)
 static violation velocity_violation(const zd_run *run, const double *Psi)
 {
     const zd_point *point = run->motion.point;
-    const double speed = zd_max_scaled(run->motion.system.nv, point->v, point->inverse_unit) + 1 / (run->loop.end - run->settings.t0);
+    const double speed = zd_max_scaled(run->motion.system.nv, point->v, point->inverse_unit) + 1 / (run->settings.t1 - run->settings.t0);
     violation largest = {0, 0};
     for (int k = 0; k < zd_constraints(&run->motion.system); k++) {
         const double size = point->size[k] * speed + (point->terms.Phi_t ? fabs(point->terms.Phi_t[k]) : 0);

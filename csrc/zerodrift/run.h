@@ -66,6 +66,7 @@ typedef struct zd_saved {       /* samples of a run that saved every step; at le
     const double *p, *v;        /* (samples, nq), (samples, nv) */
     const double *input;        /* (samples,) J; NULL without input power */
     int ends_in_event;          /* true if the last sample is a terminal event */
+    const signed char *state;   /* (samples, groups) of each group from the sample on, as in zd_transition; NULL without groups */
     int64_t stride;             /* doubles between consecutive samples, the same for each array; 0: arrays are contiguous */
 } zd_saved;
 
@@ -133,6 +134,22 @@ typedef struct zd_jump {
     double *impulses, *works;
 } zd_jump;
 const zd_jump *zd_run_jump(const zd_run *run);
+/* Changes of phase so far, of a system with groups, and the last one, after which an advance pauses. NULL: the system has no groups. */
+typedef struct zd_transition {
+    int64_t count;
+    double t;               /* s */
+    signed char *state;     /* (groups,) from then on: 0 open, released or without friction; 1 closed, joined or sticking; 2, 3 sliding with a
+                             * positive or negative velocity; 4 closed or sticking together with others, which have its force */
+    double *impulse;        /* (groups,) N s: of one-sided groups, in an impact */
+    double *loss;           /* (groups,) J: energy lost by it, with its friction; of two-sided groups, by joining */
+    double energy;          /* J: change of the energy */
+} zd_transition;
+const zd_transition *zd_run_transition(const zd_run *run);
+/* Joins or releases a two-sided group at the present state, with a plastic impact, M (v+ - v-) = -C^T impulses. ZD_JOINED: Phi must be zero
+ * to 1e-9 of the characteristic length, otherwise ZD_BAD_START; ZD_JOINED_HERE: Phi keeps its present value. ZD_BAD_ARGUMENT without such
+ * a group. */
+enum zd_joining { ZD_RELEASED, ZD_JOINED_HERE, ZD_JOINED };
+int zd_run_switch(zd_run *run, int group, enum zd_joining how);
 /* J: Psi_E (28) at the present state; ZD_NOT_FINITE where the system has no potential. */
 int zd_run_energy_violation(zd_run *run, double *violation);
 double zd_run_progress(const zd_run *run);                  /* 0 ... 1 */

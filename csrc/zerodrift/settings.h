@@ -8,11 +8,14 @@
 /* ---- events: instants at which a function of the motion passes through zero ---- */
 
 /* Source of an argument of an event function: a quantity of the motion, or a constant. */
-enum zd_source { ZD_READS_TIME, ZD_READS_P, ZD_READS_V, ZD_READS_MEASURE, ZD_READS_NUMBER };
+enum zd_source {
+    ZD_READS_TIME, ZD_READS_P, ZD_READS_V, ZD_READS_MEASURE, ZD_READS_NUMBER,
+    ZD_READS_GROUP          /* margin of a group of constraints that switch, while its phase lasts; of the core alone */
+};
 
 typedef struct zd_argument {
     enum zd_source what;
-    int index;              /* entry of p or v, or index of a measure */
+    int index;              /* entry of p or v, or index of a measure or a group */
     int component;          /* component of the measure */
     double number;          /* value of ZD_READS_NUMBER */
 } zd_argument;
@@ -27,9 +30,11 @@ typedef struct zd_event {
 } zd_event;
 
 /* Action at each occurrence of an event, after which the run goes on: an input is set, or the caller acts, see zd_run_acting(). */
+enum { ZD_CALLER_ACTS = -1, ZD_CHANGES_PHASE = -2, ZD_SWITCHES = -3 };
 typedef struct zd_action {
     int event;
-    int input;              /* index; -1: the caller acts */
+    int input;              /* index; ZD_CALLER_ACTS; ZD_SWITCHES - g: the two-sided group g is joined as it stands, or with the value 0
+                             * released; ZD_CHANGES_PHASE of the core alone */
     double value;           /* value of the input */
 } zd_action;
 

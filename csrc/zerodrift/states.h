@@ -28,6 +28,9 @@ zd_system zd_perturbed(zd_perturbation *perturbation);      /* refers to the per
 int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singular on_singular, int64_t states, const double *t,
                      const double *p, const double *v, double *vdot, double *multipliers, int *is_deficient, double *u, char *message,
                      int message_size);
+/* vdot (states, nv) of a system with groups of constraints, from the multipliers (states, m) of all rows there. */
+int zd_accelerations_with(const zd_system *system, int formulation, int64_t states, const double *t, const double *p, const double *v,
+                          const double *multipliers, double *vdot, char *message, int message_size);
 /* Values u (states, functions) of these user functions where accelerations, multipliers and efforts (states,), NULL for none, are given. */
 int zd_read_states(const zd_system *system, int64_t states, const double *t, const double *p, const double *v, const double *vdot,
                   const double *multipliers, const zd_efforts *efforts, double *u);

@@ -32,7 +32,7 @@
 #include "terms.h"
 
 /* Changes with any declaration here and in these headers that compiled code depends on. */
-enum { ZD_INTERFACE_VERSION = 9 };
+enum { ZD_INTERFACE_VERSION = 10 };
 
 /* ---- measures, inputs, groups ---- */
 
@@ -115,21 +115,28 @@ typedef struct zd_reading {
 } zd_reading;
 
 /* Constraints that are switched on and off together, such as those of a latch, a stop or a contact. Rows outside all groups are always
- * active. Only groups that are active and ZD_TWO_SIDED are simulated as yet. */
+ * active. With g = sign (Phi - value) the gap of a one-sided row, its force on g is N = -sign lambda. */
 enum zd_group_kind {
-    ZD_TWO_SIDED,           /* rows of a latch or a lock */
-    ZD_ONE_SIDED,           /* one holonomic row: Phi >= 0, lambda <= 0, and one of them zero */
-    ZD_FRICTION             /* nonholonomic rows, the slip velocities: either C v + Phi_t = 0, or a force against the slip */
+    ZD_TWO_SIDED,           /* rows of a joint that lets go and joins, all holonomic or all nonholonomic */
+    ZD_ONE_SIDED,           /* one holonomic row: g >= 0, N >= 0, and one of them zero */
+    ZD_FRICTION             /* one row, a slip velocity C v + Phi_t: zero, or a force against it. Its Phi is not read. */
 };
 
 typedef struct zd_group {
     const char *name;
     int first, rows;        /* first row of C, and number of rows */
     enum zd_group_kind kind;
-    int is_active;          /* at the start: 1: closed, sticking; 0: open, sliding */
-    int normal;             /* ZD_FRICTION: 1 + index of the ZD_ONE_SIDED group whose multiplier bounds the friction; 0: a fixed bound */
+    int sign;               /* ZD_ONE_SIDED: 1 or -1 */
+    double scale;           /* ZD_ONE_SIDED, ZD_FRICTION: unit of Phi, as 1 rad of an angle; 0: the characteristic length */
+    double value;           /* ZD_ONE_SIDED: Phi at which it is closed; two groups may share a row, as the ends of a stop do */
+    int is_active;          /* ZD_TWO_SIDED: 1 if it is joined at the start */
+    int normal;             /* ZD_FRICTION: 1 + index of the ZD_ONE_SIDED group whose force bounds the friction; 0: another bound */
+    int load, loads;        /* ZD_FRICTION without a normal: first of the rows whose multipliers are the load that bounds it, and their
+                             * number, at most 3; 0: a fixed bound */
+    double load_factor[3];  /* factors of these multipliers */
+    int is_largest;         /* 1: the load is the largest of their magnitudes; 0: their norm */
     double restitution;     /* ZD_ONE_SIDED: coefficient of restitution, 0 to 1 */
-    double friction[2];     /* ZD_FRICTION: static and sliding; coefficients, or with a fixed bound in N or N m */
+    double friction[2];     /* ZD_FRICTION: static and sliding: coefficients of the load, or with a fixed bound N or N m */
 } zd_group;
 
 /* Times at which user functions of t alone jump or bend, at which adaptive steps end: those of a group repeat with its period. */

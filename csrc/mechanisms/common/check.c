@@ -113,6 +113,15 @@ static int measure_is_right(const tables *of, int i, zd_complaint to)
            zd_complain(to, "measure %s: the entries that it measures must exist", measure->name);
 }
 
+static int group_is_right(const tables *of, int i, zd_complaint to)
+{
+    const zd_element_group *group = of->elements->group + i;
+    const int owners = group->owner == ZD_OF_JOINT ? of->joints : of->elements->relations;
+    return (zd_is_in(group->owner, ZD_OF_RELATION + 1) && zd_is_in(group->index, owners) && zd_is_in(group->kind, ZD_FRICTION + 1) &&
+            zd_is_in(group->normal, of->elements->groups + 1) && (!group->loads || zd_is_in(group->load_joint, of->joints))) ||
+           zd_complain(to, "group %s: its kind, its joint or relation, and those of its load must exist", group->name);
+}
+
 /* True if relations, generalized forces and measures refer to existing marker quantities and joints; otherwise writes which one does not. */
 static int elements_are_right(const zd_elements *elements, int joints, int quantities, zd_complaint to)
 {
@@ -120,7 +129,8 @@ static int elements_are_right(const zd_elements *elements, int joints, int quant
     const struct {
         int count;
         int (*is_right)(const tables *, int, zd_complaint);
-    } all[] = {{elements->relations, relation_is_right}, {elements->forces, force_is_right}, {elements->measures, measure_is_right}};
+    } all[] = {{elements->relations, relation_is_right}, {elements->forces, force_is_right}, {elements->measures, measure_is_right},
+               {elements->groups, group_is_right}};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
         for (int i = 0; i < all[k].count; i++)
             if (!all[k].is_right(&of, i, to)) return 0;

@@ -105,6 +105,22 @@ typedef struct zd_law_program {
     int first_difference;       /* index of the first among those of all user functions */
 } zd_law_program;
 
+/* Origin of a row of C: a joint, or a relation (drive, coupling, user constraint). */
+enum zd_owner { ZD_OF_JOINT, ZD_OF_RELATION };
+
+/* A zd_group by the owner of its rows, with the same members. */
+typedef struct zd_element_group {
+    const char *name;
+    int owner, index;           /* enum zd_owner, and index of the joint or relation */
+    int component, rows;        /* first row of the joint, in the order of its kind, and their number */
+    int kind, sign, is_active, normal;
+    int load_joint, load_component, loads;      /* joint of the rows of the load, the first of them, and their number */
+    double load_factor[3];
+    int is_largest;
+    double scale, value, restitution;
+    double friction[2];
+} zd_element_group;
+
 enum { ZD_MAX_LEAST = 200 };       /* largest number of constraints for which reactions are the least ones: work grows with its cube */
 
 typedef struct zd_elements {
@@ -119,10 +135,9 @@ typedef struct zd_elements {
     double length;              /* m: that moments are divided by in the sum that the least reactions minimize; 0: 1 m */
     int laws_know_time;         /* 1 if a user function depends on t explicitly, not only through positions and velocities */
     const zd_reading *reading;  /* without evaluate(); NULL: no user function reads reactions */
+    int groups;
+    const zd_element_group *group;
 } zd_elements;
-
-/* Origin of a row of C: a joint, or a relation (drive, coupling, user constraint). */
-enum zd_owner { ZD_OF_JOINT, ZD_OF_RELATION };
 
 typedef struct zd_constraint_owner {
     enum zd_owner owner;

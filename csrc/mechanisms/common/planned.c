@@ -16,6 +16,7 @@ void zd_elements_create(zd_element_parts *to, zd_arena *arena, const zd_elements
     TAKE(force, elements->forces);
     TAKE(output, elements->measures);
     TAKE(measure, elements->measures);
+    TAKE(group, elements->groups);
 #undef TAKE
 }
 
@@ -51,6 +52,33 @@ void zd_elements_add_relations(const zd_elements *elements, int nonholonomic, zd
         to->constraint_of_relation[i] = to->rows;
         add_row(to, elements->relation[i], (zd_constraint_owner){ZD_OF_RELATION, i, 0});
     }
+}
+
+static int find_row(const zd_element_parts *from, int owner, int index, int component)
+{
+    int row = 0;
+    for (; row < from->rows; row++) {
+        const zd_constraint_owner *of = from->owner_of_constraint + row;
+        if ((int)of->owner == owner && of->index == index && of->component == component) break;
+    }
+    return row;
+}
+
+void zd_elements_set_groups(const zd_elements *elements, const zd_element_parts *from, zd_system *system)
+{
+    for (int g = 0; g < elements->groups; g++) {
+        const zd_element_group *of = elements->group + g;
+        zd_group group = {.name = of->name, .first = find_row(from, of->owner, of->index, of->component), .rows = of->rows,
+                          .kind = (enum zd_group_kind)of->kind, .sign = of->sign, .scale = of->scale,
+                          .value = of->value, .is_active = of->is_active,
+                          .normal = of->normal, .loads = of->loads, .is_largest = of->is_largest, .restitution = of->restitution,
+                          .friction = {of->friction[0], of->friction[1]}};
+        if (of->loads) group.load = find_row(from, ZD_OF_JOINT, of->load_joint, of->load_component);
+        memcpy(group.load_factor, of->load_factor, sizeof group.load_factor);
+        from->group[g] = group;
+    }
+    system->groups = elements->groups;
+    system->group = from->group;
 }
 
 /* ---- what follows for the system ---- */

@@ -34,6 +34,7 @@ typedef struct zd_element_parts {
     zd_generalized_force *force;
     zd_output_spec *output;
     zd_measure *measure;
+    zd_group *group;
     int terms, rows;                /* numbers so far */
 } zd_element_parts;
 
@@ -46,6 +47,8 @@ void zd_elements_add_term(zd_element_parts *to, int quantity, double coefficient
 void zd_elements_add_joint_row(zd_element_parts *to, int first, int nonholonomic, int joint, int component);
 /* Adds the holonomic or the nonholonomic relations as rows. */
 void zd_elements_add_relations(const zd_elements *elements, int nonholonomic, zd_element_parts *to);
+/* The groups of a system, after all rows were added. */
+void zd_elements_set_groups(const zd_elements *elements, const zd_element_parts *from, zd_system *system);
 /* Planned form, after all rows were added; the first `mh` are holonomic. */
 zd_planned_elements zd_elements_plan(const zd_elements *elements, const zd_element_parts *from, int mh);
 /* Bit mask of the terms of (2), (3), (5) and (6) that rows and generalized forces provide. */

@@ -96,12 +96,19 @@ static int are_alike(const zd_system *one, const zd_system *other)
     return one->nq == other->nq && one->nv == other->nv && one->mh == other->mh && one->mn == other->mn;
 }
 
-static int actions_exist(const zd_events *events, const zd_inputs *inputs)
+static int switches_exist(const zd_system *system, int input)
+{
+    const int group = ZD_SWITCHES - input;
+    return group >= 0 && group < system->groups && system->group[group].kind == ZD_TWO_SIDED;
+}
+
+static int actions_exist(const zd_system *system, const zd_events *events, const zd_inputs *inputs)
 {
     int do_exist = 1, count = inputs ? inputs->count : 0;
     for (int i = 0; i < events->actions; i++) {
         const zd_action *action = events->action + i;
-        do_exist &= action->event >= 0 && action->event < events->count && action->input >= -1 && action->input < count;
+        do_exist &= action->event >= 0 && action->event < events->count && action->input < count
+                    && (action->input >= ZD_CALLER_ACTS || switches_exist(system, action->input));
     }
     return do_exist;
 }
@@ -115,7 +122,7 @@ static const char *wrong_events(const zd_system *system, const zd_events *events
         {events->of && !are_alike(events->of, system),
          "events must read measures of a system with the same numbers of coordinates, velocities and constraints"},
         {!events->evaluate && !events->known, "events must have the function evaluate(), or be known to the core"},
-        {!actions_exist(events, inputs), "actions must be at existing events, and set existing inputs"},
+        {!actions_exist(system, events, inputs), "actions must be at existing events, and set existing inputs or joints"},
     };
     const char *wrong = FIRST_BROKEN(rules);
     return wrong ? wrong : zd_wrong_readings(events, system);

@@ -3,6 +3,7 @@
  */
 #include "checks.h"
 
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -251,23 +252,38 @@ static int check_inputs(const zd_system *system, text message)
     return ZD_DONE;
 }
 
-/* Checks groups of constraints that can be switched: they must be in order and must not overlap. */
+/* Checks groups of constraints that can be switched, and what bounds their friction. */
+static int check_switched_group(const zd_system *system, int i, text message)
+{
+    const zd_group *group = &system->group[i];
+    const int m = system->mh + system->mn, is_single = group->kind != ZD_TWO_SIDED;
+    if (!group->name || !*group->name) return refuse(message, "groups: group %d must have a name", i);
+    if (group->rows < 1 || group->first < 0 || group->first > m - group->rows || (is_single && group->rows > 1))
+        return refuse(message, "groups: %s must have rows among the %d, one unless it is two-sided, not %d rows from row %d on", group->name,
+                      m, group->rows, group->first);
+    if (group->first < system->mh && group->first + group->rows > system->mh)
+        return refuse(message, "groups: %s must have rows of one kind, holonomic or not", group->name);
+    if (group->kind == ZD_ONE_SIDED && (group->first >= system->mh || (group->sign != 1 && group->sign != -1)))
+        return refuse(message, "groups: %s must have a holonomic row, and a sign of 1 or -1", group->name);
+    if (!(group->restitution >= 0 && group->restitution <= 1) || !isfinite(group->value))
+        return refuse(message, "groups: the restitution of %s must be 0 to 1, and its value finite", group->name);
+    if (group->kind != ZD_FRICTION) return ZD_DONE;
+    if (!(group->friction[1] >= 0 && group->friction[0] >= group->friction[1]))
+        return refuse(message, "groups: friction of %s must not be negative, nor sliding friction more than static", group->name);
+    if (group->normal < 0 || group->normal > system->groups || (group->normal && system->group[group->normal - 1].kind != ZD_ONE_SIDED))
+        return refuse(message, "groups: the normal of %s must be a one-sided group", group->name);
+    if (group->loads < 0 || group->loads > 3 || (group->loads && (group->load < 0 || group->load > m - group->loads)))
+        return refuse(message, "groups: the load of %s must be multipliers of at most 3 existing rows", group->name);
+    return ZD_DONE;
+}
+
 static int check_switched_groups(const zd_system *system, text message)
 {
-    int end = 0, m = system->mh + system->mn;
+    int status = ZD_DONE;
     if (system->groups < 0 || system->groups > 64 || (system->groups && !system->group))
         return refuse(message, "groups: there must be 0 to 64, each with its name and rows, not %d", system->groups);
-    for (int i = 0; i < system->groups; i++) {
-        const zd_group *group = &system->group[i];
-        if (!group->name || !*group->name) return refuse(message, "groups: group %d must have a name", i);
-        if (group->rows < 1 || group->first < end || group->first > m - group->rows)
-            return refuse(message, "groups: %s must have at least one of the %d rows, after those of the group before, not %d rows from "
-                          "row %d on", group->name, m, group->rows, group->first);
-        if (group->kind != ZD_TWO_SIDED || !group->is_active)
-            return refuse(message, "groups: %s must be active and two-sided, as others are not simulated yet", group->name);
-        end = group->first + group->rows;
-    }
-    return ZD_DONE;
+    for (int i = 0; i < system->groups && !status; i++) status = check_switched_group(system, i, message);
+    return status;
 }
 
 static int check_quaternions(const zd_system *system, text message)

@@ -253,6 +253,7 @@ static void make_system(const zd_plane_tables *tables, const parts *from, int co
         .magnitudes = has_tree(tables) ? zd_plane_magnitudes : NULL,
         .force_magnitudes = zd_plane_force_magnitudes,
     };
+    zd_elements_set_groups(&tables->elements, &from->elements, &self->system);
     self->measures = zd_plane_measures(self, from->elements.measure);
     zd_plane_frame_divide(self);
     self->system.magnitudes_scratch = self->system.scratch;

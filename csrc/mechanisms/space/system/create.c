@@ -141,6 +141,7 @@ static void make_system(const zd_space_tables *tables, const parts *from)
         .followers = from->unwrapped.count, .follow = from->unwrapped.count ? zd_space_follow : NULL,
     };
     self->measures.count = tables->elements.measures;
+    zd_elements_set_groups(&tables->elements, &from->elements, &self->system);
     self->measures = zd_space_measures(self, from->elements.measure);
     zd_space_frame_divide(self);
     self->elements.reading.evaluate = zd_space_read;

@@ -1,0 +1,144 @@
+/* Creation of a phase: its rows, the structure that they have, and the loads that its friction reads. */
+#include <string.h>
+
+#include "phase_system.h"
+
+static int is_sliding_with_load(const zd_group *group, signed char state)
+{
+    return group->kind == ZD_FRICTION && zd_slides(state) && (group->normal || group->loads);
+}
+
+/* The group for which a row is active: its index, or -1; -2 if it is not active. */
+static int find_group(const zd_phase_system *self, int row)
+{
+    if (!self->is_switched[row]) return -1;
+    for (int g = 0; g < self->full->groups; g++) {
+        const zd_group *group = self->full->group + g;
+        if (self->state[g] == ZD_CLOSED && row >= group->first && row < group->first + group->rows) return g;
+    }
+    return -2;
+}
+
+static void list_rows(zd_phase_system *self)
+{
+    const zd_system *full = self->full;
+    int m = 0;
+    for (int g = 0; g < full->groups; g++)
+        for (int i = 0; i < full->group[g].rows; i++) self->is_switched[full->group[g].first + i] = 1;
+    for (int row = 0; row < zd_constraints(full); row++) self->row_here[row] = -1;
+    for (int holonomic = 1; holonomic >= 0; holonomic--) {
+        for (int row = 0; row < zd_constraints(full); row++) {
+            const int g = find_group(self, row), is_friction = g >= 0 && full->group[g].kind == ZD_FRICTION;
+            if (g < -1 || (row < full->mh && !is_friction) != holonomic) continue;
+            self->value[m] = g >= 0 ? full->group[g].value : 0;
+            self->keeps_place[m] = g >= 0 && full->group[g].kind == ZD_TWO_SIDED;
+            self->row_here[row] = m;
+            self->row[m++] = row;
+        }
+        if (holonomic) self->system.mh = m;
+    }
+    self->system.mn = m - self->system.mh;
+}
+
+/* The groups of rows that the structure declares, without rows that are not active; those of a group that differ in kind come apart. */
+static void declare_structure(zd_phase_system *self, int *rows, int *first, int *block)
+{
+    const zd_structure *inner = self->full->structure;
+    const zd_layout *layout = self->layout;
+    int groups = 0, before = -1;
+    first[0] = 0;
+    for (int k = 0; k < zd_constraints(&self->system); k++) {
+        const int g = layout->group_of[self->row[k]];
+        if (groups && g == before && k != self->system.mh) {
+            rows[groups - 1]++;
+            continue;
+        }
+        const int count = inner->first[g + 1] - inner->first[g];
+        memcpy(block + first[groups], inner->block + inner->first[g], count * sizeof *block);
+        first[groups + 1] = first[groups] + count;
+        rows[groups++] = 1;
+        before = g;
+    }
+    self->structure = *inner;
+    self->structure.groups = groups;
+    self->structure.rows = rows, self->structure.first = first, self->structure.block = block;
+    self->system.structure = &self->structure;
+}
+
+static void create_structure(zd_arena *arena, zd_phase_system *self)
+{
+    const zd_system *full = self->full;
+    if (!full->structure) return;
+    const int m = zd_constraints(full), touched = full->structure->blocks;
+    int *rows = zd_arena_ints(arena, m), *first = zd_arena_ints(arena, m + 1), *block = zd_arena_ints(arena, m * touched);
+    if (arena->base) declare_structure(self, rows, first, block);
+}
+
+/* Functions that read the loads of what slides, after those of the full system. */
+static void fill_reading(zd_phase_system *self)
+{
+    const zd_system *full = self->full;
+    static const zd_reading none = {0};
+    const zd_reading *own = full->reading ? full->reading : &none;
+    zd_reading *all = &self->reading;
+    *all = *own;
+    if (own->count) memcpy(self->reaction, own->reaction, own->count * sizeof *own->reaction);
+    if (own->reads) memcpy(self->read, own->read, own->reads * sizeof *own->read);
+    if (own->functions) memcpy(self->name, own->name, own->functions * sizeof *own->name);
+    for (int g = 0; g < full->groups; g++) {
+        const zd_group *group = full->group + g;
+        if (group->kind != ZD_FRICTION || !zd_slides(self->state[g])) continue;
+        zd_sliding *it = self->sliding + self->slidings++;
+        *it = (zd_sliding){g, -1, all->count, 0};
+        if (!is_sliding_with_load(group, self->state[g])) continue;
+        it->input = all->functions;
+        self->name[all->functions] = group->name;
+        it->reactions = group->normal ? 1 : group->loads;
+        for (int i = 0; i < it->reactions; i++) {
+            self->reaction[all->count] = (zd_read_reaction){zd_own_measures(full) + zd_first_load(full, group) + i, 0};
+            self->read[all->reads++] = (zd_read){all->functions, all->count++};
+        }
+        all->functions++;
+    }
+    all->reaction = self->reaction, all->read = self->read, all->name = self->name;
+    self->system.reading = all->functions ? all : NULL;
+}
+
+static void create_reading(zd_arena *arena, zd_phase_system *self)
+{
+    const zd_reading *own = self->full->reading;
+    const int groups = self->full->groups, functions = own ? own->functions : 0, count = own ? own->count : 0, reads = own ? own->reads : 0;
+    self->sliding = zd_arena_bytes(arena, groups * sizeof *self->sliding);
+    self->reaction = zd_arena_bytes(arena, (count + groups * ZD_MAX_LOADS) * sizeof *self->reaction);
+    self->read = zd_arena_bytes(arena, (reads + groups * ZD_MAX_LOADS) * sizeof *self->read);
+    self->name = zd_arena_bytes(arena, (functions + groups) * sizeof *self->name);
+    if (arena->base) fill_reading(self);
+}
+
+zd_phase_system *zd_phase_system_create(zd_arena *arena, const zd_system *full, const signed char *state)
+{
+    const int m = zd_constraints(full), groups = full->groups;
+    zd_phase_system nowhere, *here = zd_arena_bytes(arena, sizeof *here), *self = here ? here : &nowhere;
+    *self = (zd_phase_system){.system = *full, .full = full, .size_of_C = zd_size_of_C(full)};
+    self->state = zd_arena_bytes(arena, groups);
+    self->row = zd_arena_ints(arena, m);
+    self->row_here = zd_arena_ints(arena, m);
+    self->is_switched = zd_arena_ints(arena, m);
+    self->value = zd_arena_doubles(arena, m);
+    self->keeps_place = zd_arena_ints(arena, m);
+    self->tie = zd_arena_ints(arena, groups);
+    self->tie_factor = zd_arena_doubles(arena, groups);
+    self->bias = zd_arena_doubles(arena, groups);
+    self->lambda = zd_arena_doubles(arena, m);
+    self->scratch = zd_arena_doubles(arena, full->scratch + self->size_of_C + full->mh + 2 * (size_t)m);
+    self->layout = zd_layout_create(arena, full);
+    if (arena->base) {
+        memcpy(self->state, state, groups);
+        list_rows(self);
+    }
+    create_structure(arena, self);
+    create_reading(arena, self);
+    self->measure = zd_arena_bytes(arena, (zd_own_measures(full) + m) * sizeof *self->measure);
+    if (arena->base) zd_phase_pass_functions(self);
+    return here;
+}

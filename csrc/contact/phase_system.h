@@ -1,0 +1,86 @@
+/* A system in one phase: with the groups of constraints that are active in it, and the forces of sliding friction. */
+#pragma once
+
+#include "../point/point.h"
+
+/* State of a group: of a one-sided row open or closed; of two-sided rows released or joined; of friction absent, sticking, or sliding with
+ * a slip velocity of this sign. Idle: closed or sticking as others are on which it depends, and which have its force. */
+enum { ZD_OPEN, ZD_CLOSED, ZD_SLIDES_FORWARD, ZD_SLIDES_BACKWARD, ZD_IDLE };
+
+enum { ZD_MAX_LOADS = 3 };      /* number of rows whose multipliers may be a load */
+
+static inline int zd_slides(signed char state) { return state == ZD_SLIDES_FORWARD || state == ZD_SLIDES_BACKWARD; }
+static inline double zd_slip_sign(signed char state) { return state == ZD_SLIDES_FORWARD ? 1 : -1; }
+
+typedef struct zd_sliding {     /* friction of a group that slides */
+    int group;
+    int input;              /* index of its force among those of the reading; -1: its bound is fixed */
+    int reaction, reactions;    /* first component of the load, and their number, among what the reading reads */
+} zd_sliding;
+
+typedef struct zd_phase_system zd_phase_system;
+
+struct zd_phase_system {
+    zd_system system;       /* its `data` is this structure */
+    const zd_system *full;  /* with the rows of all groups */
+    signed char *state;     /* (groups,) */
+    int *row;               /* (m,): row of the full system that each row is */
+    int *row_here;          /* (full m,): the inverse; -1: it is not active */
+    int *is_switched;       /* (full m,): true if the row is of a group */
+    double *value;          /* (m,): Phi of the full system at which the row is closed */
+    int *keeps_place;       /* (m,): true of rows of two-sided groups, whose value is set when they join */
+    const zd_layout *layout;    /* layout of the full system; NULL: it declares no structure */
+    int size_of_C;          /* entries of C of the full system */
+    int slidings;
+    zd_sliding *sliding;    /* (groups,) */
+    zd_structure structure;
+    zd_measures measures;   /* measures of the full system, then the multiplier of each row of the full system */
+    zd_measure *measure;
+    zd_reading reading;
+    zd_read_reaction *reaction;
+    zd_read *read;
+    const char **name;      /* names of functions that read reactions */
+    double *scratch;        /* memory of zd_phase_evaluate() */
+    double *lambda;         /* (full m,): multipliers of all rows, from zd_point_multipliers() */
+    int *tie;               /* (groups,) of idle friction: the group that sticks in its place; -1: none */
+    double *tie_factor;     /* (groups,) by which its bound counts there */
+    double *bias;           /* (groups,): added to each margin, which rounding may make negative when the phase begins */
+    zd_switches switches;
+    zd_operations operations;
+};
+
+/* The phase with the state (groups,) of each group, in memory of the arena. */
+zd_phase_system *zd_phase_system_create(zd_arena *arena, const zd_system *full, const signed char *state);
+/* all (full m,) <- multipliers of all rows at a state, from those (m,) of the phase: 0 of rows that are open; of friction that slides, those
+ * that have its force. `u`: forces that read reactions; they are NULL if there are none. */
+void zd_phase_expand(const zd_phase_system *self, const double *lambda, const double *u, double *all);
+/* Number of rows of the full system of a point. */
+static inline int zd_point_constraints(const zd_point *point) { return zd_constraints(point->phase ? point->phase->full : point->system); }
+/* Multipliers of all rows at the point, which are known there; valid until the next call. */
+const double *zd_point_multipliers(const zd_point *point);
+/* Evaluates terms of the constraints of the full system at a state, in memory of its own; then a row of its C, its Phi, Phi_t and xi there,
+ * and the slip velocity of a group. */
+int zd_phase_evaluate(zd_phase_system *self, int want, double t, const double *p, const double *v);
+zd_row_of_C zd_phase_row(const zd_phase_system *self, int row);
+const double *zd_phase_Phi(const zd_phase_system *self);
+const double *zd_phase_Phi_t(const zd_phase_system *self);
+const double *zd_phase_xi(const zd_phase_system *self);
+double zd_phase_slip(const zd_phase_system *self, int group, const double *v);
+/* Number of measures of the full system. */
+static inline int zd_own_measures(const zd_system *full) { return full->measures ? full->measures->count : 0; }
+/* Sets the functions of a phase whose rows are known. */
+void zd_phase_pass_functions(zd_phase_system *self);
+/* First row of the multipliers that are the load of friction, and the load from them; 1 for a fixed bound. */
+static inline int zd_first_load(const zd_system *full, const zd_group *group)
+{
+    return group->normal ? full->group[group->normal - 1].first : group->load;
+}
+double zd_friction_load(const zd_system *full, const zd_group *group, const double *lambda);
+/* Bound of the friction of a group, from the multipliers of all rows; `which`: 0 static, 1 sliding. */
+double zd_friction_bound(const zd_system *full, int group, int which, const double *lambda);
+/* Margin of a group at a state, whose accelerations and multipliers are those of the point: positive while its phase lasts. It is the gap of
+ * an open row, the force N of a closed one, the bound of static friction minus its force, and the slip speed. */
+int zd_phase_margin(zd_phase_system *self, const zd_point *point, int group, double t, const double *p, const double *v,
+                    double *margin);
+/* True if the margin depends on accelerations and multipliers. */
+int zd_margin_reads_accelerations(const zd_phase_system *self, int group);

@@ -1,0 +1,58 @@
+/* Contacts that touch at an instant, with their friction, as candidates of one small problem: contact/problem.h. */
+#pragma once
+
+#include "../contact/problem.h"
+#include "phases.h"
+
+typedef struct zd_contacts {
+    zd_run *run;
+    zd_phases *phases;
+    int count, normals;     /* candidates: normal rows, then friction */
+    int group[ZD_MAX_CANDIDATES];
+    double sign[ZD_MAX_CANDIDATES];
+    zd_candidate row[ZD_MAX_CANDIDATES];
+    signed char state[ZD_MAX_CANDIDATES];
+    int tie[ZD_MAX_CANDIDATES];
+    double factor[ZD_MAX_CANDIDATES];
+    double gap[ZD_MAX_CANDIDATES];
+    double w[ZD_MAX_CANDIDATES], b[ZD_MAX_CANDIDATES], z[ZD_MAX_CANDIDATES], after[ZD_MAX_CANDIDATES];
+    double *g, *x;          /* (count, nv) */
+    double *W, *scratch, *zero;     /* (count, count); of the problem; (m,) */
+    signed char *next;      /* (groups,) */
+    int is_changed;         /* true if an impulse has changed velocities */
+    signed char ends[ZD_MAX_CANDIDATES];    /* states that rows which let go at this instant must take; ZD_OPEN: they may stay */
+    void *memory;
+} zd_contacts;
+
+/* Lists the contacts that touch, and their friction; `next` is without them. */
+int zd_contacts_find(zd_contacts *self, int is_start);
+/* Bounds of friction by loads, as they are now. */
+int zd_contacts_find_loads(zd_contacts *self);
+int zd_contacts_allocate(zd_contacts *self);
+/* g, x and W in the phase without the candidates, which is the present one. */
+int zd_contacts_find_answers(zd_contacts *self);
+void zd_contacts_find_velocities(zd_contacts *self);
+/* v <- v + x z */
+void zd_contacts_apply(zd_contacts *self, const double *z);
+/* Solves the problem of the first rows with b; `what` is its name in messages. */
+int zd_contacts_solve(zd_contacts *self, int rows, const char *what);
+static inline const zd_group *zd_candidate_group(const zd_contacts *self, int k) { return self->phases->full->group + self->group[k]; }
+/* Unit of the gap of a group: the characteristic length, or that of the group, as 1 rad */
+static inline double zd_group_scale(const zd_phases *phases, const zd_group *group)
+{
+    return group->scale > 0 ? group->scale : phases->length;
+}
+/* Normal velocity, m/s or rad/s, below which a contact that is pressed together stays closed */
+static inline double zd_rest_speed(const zd_contacts *self, int k)
+{
+    return 1e-6 * zd_group_scale(self->phases, zd_candidate_group(self, k));
+}
+static inline double zd_dot_all(int n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++) sum += a[i] * b[i];
+    return sum;
+}
+
+/* Gap of a start or of a joint, relative to the characteristic length, beyond which it is an error */
+static const double ZD_PENETRATION = 1e-9;
