@@ -10,7 +10,7 @@ from .._private import checks
 from .._private.types import ArrayLike, SystemLike, Values
 from ..errors import EquilibriumFailed, WrongValue
 from ..runs.states.instant import KnownInstant
-from ..systems.base import BaseSystem, core_of, system_of
+from ..systems.base import BaseSystem, core_of, unswitched
 from .equilibrium import equilibrium
 from .path import FIRST_STEP, LARGEST_STEP, Curve, Knot
 
@@ -102,7 +102,7 @@ def equilibria(system: SystemLike, parameter: str, values: ArrayLike, *, near: A
     >>> path.values
     array([1. , 1.5, 2. ])
     """
-    system = system_of(system)
+    system = unswitched(system, "equilibria")
     core_of(system)
     checks.choice("parameter", parameter, system.parameters)
     values = _values(values)

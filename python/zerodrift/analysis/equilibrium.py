@@ -12,7 +12,7 @@ from .._private.types import ArrayLike, Measures, SystemLike, Values
 from ..errors import EquilibriumFailed, WrongValue, ZerodriftError
 from ..runs.arguments.methods import Projection
 from ..runs.states.operations import project
-from ..systems.base import BaseSystem, system_of
+from ..systems.base import BaseSystem, unswitched
 from .equilibrium_result import Equilibrium, at_rest, in_motion, of_many
 from .large import MANY, blocks_that_meet, found
 from .quantities import components, find, names_of, rows_of, values_of
@@ -80,7 +80,7 @@ def equilibrium(system: SystemLike, *, near: ArrayLike | Values | None = None, h
     >>> round(eq["link.angle"], 9), round(eq["pin.force.y"], 9), eq.stable
     (-1.570796327, 19.62, True)
     """
-    system, t = system_of(system), checks.number("t", t)
+    system, t = unswitched(system, "an equilibrium"), checks.number("t", t)
     checks.choice("stability", stability, ("stable", "any"))
     if hold == () and v is None and (meet := blocks_that_meet(system)) is not None:
         return of_many(*found(system, t, _first(system, near), meet))

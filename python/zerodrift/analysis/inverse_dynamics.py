@@ -12,7 +12,7 @@ from .._private import checks
 from .._private.gateway import needed_efforts
 from .._private.types import ArrayLike, Measures, SystemLike, Values
 from ..errors import AccuracyWarning, InconsistentStart, SingularSystem, WrongType, WrongValue
-from ..systems.base import BaseSystem, Makes, core_of, system_of
+from ..systems.base import BaseSystem, Makes, core_of, unswitched
 from . import read_forces
 from .effort_result import Efforts
 from .kinematic_result import Kinematics
@@ -77,7 +77,7 @@ def inverse_dynamics(system: SystemLike, motion: Kinematics | ArrayLike, p: Arra
     >>> inv["pin.angle"].round(9)       # 3 * 2**2 / 3 * 1.5 + 3 * 9.81
     array([35.43])
     """
-    given, system = system, system_of(system)
+    given, system = system, unswitched(system, "inverse dynamics")
     core_of(system)
     names = None if efforts is None else names_of(efforts, "efforts")
     if isinstance(motion, Kinematics):

@@ -12,7 +12,7 @@ from .._private import checks
 from .._private.gateway import Tracked
 from .._private.types import ArrayLike, Motions, SystemLike, Values
 from ..errors import AccuracyWarning, InconsistentStart, LockedWarning, SingularSystem, WrongValue
-from ..systems.base import BaseSystem, core_of, system_of
+from ..systems.base import BaseSystem, core_of, unswitched
 from .kinematic_result import Kinematics
 from .names import dominant
 from .prescribed import Prescribed, prescribed
@@ -82,7 +82,7 @@ def kinematics(system: SystemLike, motion: Motions | None = None, t: ArrayLike |
     >>> bool(abs(kin["crank.end.acceleration.x"] + 18 * np.cos(3 * kin.t)).max() < 1e-12)
     True
     """
-    system = system_of(system)
+    system = unswitched(system, "kinematics")
     core_of(system)
     given = {} if motion is None else values_of(motion, "motion")
     times = None if t is None else checks.increasing("t", t, -np.inf, np.inf)

@@ -10,7 +10,7 @@ import numpy as np
 from .._private import checks
 from .._private.types import ArrayLike, Measures, Reading, SystemLike, Values
 from ..errors import AccuracyWarning, InconsistentStart, WrongType, WrongValue
-from ..systems.base import BaseSystem, core_of, system_of
+from ..systems.base import BaseSystem, core_of, unswitched
 from . import differences
 from .equilibrium import equilibrium
 from .equilibrium_result import Equilibrium
@@ -73,7 +73,7 @@ def linearize(system: SystemLike, at: Reading | tuple[float, ArrayLike, ArrayLik
     >>> round(float(abs(lin.eigenvalues[0])) ** 2, 9)
     14.715
     """
-    system = system_of(system)
+    system = unswitched(system, "a linearization")
     core_of(system)
     if at is None and v is not None:
         at, v = equilibrium(system, v=v), None

@@ -69,7 +69,7 @@ def _batch(plan: Plan) -> Batch | None:
         return None
     events = options.pop("events", None)
     watched, places = events_of.events(events, system), None
-    declared = declared_inputs(events_of.inputs_of(events) or None, system, FOLLOWED, options.get("step"))
+    declared = declared_inputs(events_of.inputs_of(events, system) or None, system, FOLLOWED, options.get("step"))
     if declared:
         places = declared.places()
         if plan.t_eval is None or places.keys() & runs.parameters.keys():

@@ -117,7 +117,7 @@ def choose(system: Any, p0: Any, v0: Any, t0: float, step: float | None, outputs
     core_settings = settings.plan(
         system, (t0, t0 + 1), settings.Arguments(step=step, closed_form=False, vector="baseline", **chosen)).core_settings
     names = None if outputs is None else _measures(_outputs.names(outputs, system), system)
-    inputs, found = tuple(dict.fromkeys([*_inputs(inputs), *inputs_of(events)])), levels(events, system)
+    inputs, found = tuple(dict.fromkeys([*_inputs(inputs), *inputs_of(events, system)])), levels(events, system)
     watched = measures_of(found, list(system._watching.known))
     return Chosen(system, p, v, core_settings, names, inputs, watched=watched, events=found)
 
@@ -150,7 +150,7 @@ def written(chosen: Chosen, words: _parameters.Words | None = None) -> bytes:
         "settings": blocks.settings(chosen.core_settings), "methods": blocks.methods(chosen.core_settings, texts),
         "names": [texts.offset(name) for name in (*(body.name for body in tables.parts), *(joint.name for joint in tables.joints),
                                                   *tables.relation_names)],
-        **event_sections(chosen.events, list(system._watching.known), measures, chosen.inputs),
+        **event_sections(chosen.events, list(system._watching.known), measures, chosen.inputs, system),
         **_parameter_sections(chosen, words or table_words(chosen), sections, counts, texts)}
     return blocks.assembled(system._drawing.dimension, sections, counts, texts)
 
@@ -176,7 +176,7 @@ def _tables(chosen: Chosen, tables: Any, texts: blocks.Texts) -> tuple[dict[str,
     sections = {**blocks.tables(packed, texts), **vars(programs), "inputs": inputs}
     counts = {"bodies": len(packed.bodies), "joints": len(packed.joints), "quantities": len(packed.quantities),
               "terms": len(sections["terms"]) // 2, "relations": len(packed.relations), "forces": len(packed.forces),
-              "measures": len(packed.measures)}
+              "measures": len(packed.measures), "groups": len(packed.groups)}
     return sections, counts, measures
 
 

@@ -8,7 +8,7 @@ from typing import Any
 from .._private.gateway import known_events
 from ..errors import WrongValue
 from ..runs.arguments.events import Watched, events
-from ..systems.base import BaseSystem
+from ..systems.base import BaseSystem, switches_of
 
 SOURCES = (known_events.COORDINATE, known_events.VELOCITY, known_events.MEASURE)
 
@@ -30,10 +30,10 @@ def measures_of(found: Sequence[Watched], names: Sequence[str]) -> tuple[str, ..
 
 
 def sections(found: Sequence[Watched], names: Sequence[str], measures: Sequence[str],
-             inputs: Sequence[str]) -> dict[str, list[float]]:
+             inputs: Sequence[str], system: Any) -> dict[str, list[float]]:
     """Sections of events, which read measures of these names, and of actions, in a block with these measures and inputs."""
     rows: list[float] = []
-    places = {name: i for i, name in enumerate(inputs)}
+    places = {**switches_of(system), **{name: i for i, name in enumerate(inputs)}}
     for each in found:
         assert each.known       # levels() has seen to that
         what, entry, component, _ = each.known.readings[0]

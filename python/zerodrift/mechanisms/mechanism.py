@@ -15,6 +15,7 @@ from .._private.writing import with_suffix, write_atomically
 from ..errors import WrongType, WrongValue
 from ..systems.base import Makes, Terms
 from .building.body_verbs import BodyVerbs
+from .building.contact_verbs import ContactVerbs
 from .building.coupling_verbs import CouplingVerbs
 from .building.force_verbs import ForceVerbs
 from .building.joint_verbs import JointVerbs
@@ -32,7 +33,7 @@ from .system import LAYOUTS, MechanismSystem
 ROTOR = "rotor", "shaft", "gear"        # elements of a motor whose rotor is geared
 
 
-class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Makes):
+class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, ContactVerbs, StartVerbs, Makes):
     """A mechanism in the plane or in space, from bodies and joints.
 
     Bodies are drawn, joints join them where they are in the drawing, and lengths count where the drawing is a sketch. Where a

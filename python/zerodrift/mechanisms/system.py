@@ -24,6 +24,7 @@ from ..systems.shapes import Shape
 from .assembly.start import Starting
 from .assembly.variants import are_plain, varied
 from .building.start_verbs import targets
+from .elements.contacts import Latch
 from .elements.drawing import Drawing
 from .elements.forces import driven, inputs_of
 from .elements.numbers import Numbers, checked, is_right, parameter_units
@@ -74,10 +75,13 @@ class MechanismSystem(Reported):
         self.layout = layout or ("joint" if compiled else cost.cost(self._tables).taken)
         if self.layout == "absolute":
             self._tables = self._tables.absolute()
-        self._start = Starting(drawing, self._numbers, self._tables)
+        self._assembling = self._tables if drawing.free is drawing else tables_of(drawing.free, self._numbers,
+                                                                                  in_tree=self.layout != "absolute")
+        self._start = Starting(drawing.free, self._numbers, self._assembling)
         self._first_core = self._plain_core(self._tables)
-        self._compiled, self._given_closed_form, self._has_inputs = compiled, closed_form, has_inputs
-        if compiled:
+        self._compiled = False if self._tables.groups else compiled
+        self._given_closed_form, self._has_inputs = closed_form, has_inputs
+        if self._compiled:
             self._check_written()
             self._written       # noqa: B018 - generates the code now
 
@@ -110,6 +114,9 @@ class MechanismSystem(Reported):
     @property
     def measures(self) -> tuple[str, ...]:
         return tuple(self._watching.known)
+
+    _latches = property(lambda self: self._drawing.of(Latch))
+    _groups = property(lambda self: [(group.name, group.kind) for group in self._tables.groups])
 
     def _plain_core(self, tables: Tables) -> MechanismCore:
         """Core system without measures, unless user functions read them."""
@@ -217,6 +224,8 @@ class MechanismSystem(Reported):
     @functools.cached_property
     def _formulation(self) -> str:      # type: ignore[override]
         """As of any system; "augmented" where the mass matrix, which the default inverts, is singular at the start."""
+        if self._tables.groups:
+            return MechanismSystem(self._drawing.free, self.layout, self._changed, False)._formulation
         usual = super()._formulation
         if not all(self._tables.inertias.is_massive(body) for body in self._tables.parts):
             try:
@@ -265,10 +274,10 @@ class MechanismSystem(Reported):
 
     def _assembled(self, held: Any, wish: Any, nudge: float, t: float) -> tuple[np.ndarray, np.ndarray]:
         """State at a time with held and wished values in addition to the mechanism's own start."""
-        drawing = self._drawing
+        drawing = self._drawing.free
         more, wished = (targets(given, what, drawing.dimension) for given, what in ((held, "held"), (wish, "wish")))
         drawing = drawing._replace(held=drawing.held | more, wished=drawing.wished | wished)
-        return self._interpreted.state(*Starting(drawing, self._numbers, self._tables).at(t, nudge=nudge))
+        return self._interpreted.state(*Starting(drawing, self._numbers, self._assembling).at(t, nudge=nudge))
 
     def _assembled_each(self, values: Sequence[Mapping[str, Any]], t: float) -> list[tuple[np.ndarray, np.ndarray]]:
         """States with these held values in addition to those of the start, one after another."""
@@ -297,7 +306,7 @@ class MechanismSystem(Reported):
 
     def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int, closed_form: tuple[str, bool] | None = None, *,
                        starts_are_known: bool = True) -> NumberTables | None:
-        plain = not self._is_written_out and not self._drawing.is_balanced
+        plain = not self._is_written_out and not self._drawing.is_balanced and not self._tables.groups
         if not parameters or not plain or not are_plain(self._drawing, self._tables, self._start):
             return super()._number_tables(parameters, count, closed_form) if starts_are_known else None
         wrong, own = np.zeros(count, dtype=bool), self.parameters

@@ -14,7 +14,7 @@ from ..analysis.comparison import Compared, derivatives_by_parameters, derivativ
 from ..errors import ZerodriftError
 from ..runs.arguments.methods import Projection
 from ..runs.states.operations import acceleration, project
-from ..systems.base import BaseSystem, Terms, core_of, system_of
+from ..systems.base import BaseSystem, Terms, core_of, system_of, unswitched
 
 STEP = np.finfo(float).eps ** (1 / 3)   # of a central difference, relative to the varied quantity
 AGREE = 1e-5                            # relative: far above the error 1e-10 of a difference, far below any mistake
@@ -81,7 +81,7 @@ def check(system: SystemLike, p: ArrayLike | None = None, v: ArrayLike | None = 
     >>> bool(zd.check(zd.systems.four_bar()))
     True
     """
-    system = system_of(system, p, v)
+    system = unswitched(system_of(system, p, v), "a check")
     p, v = system._state_or_start(p, v, "p", "v", t)
     t, states = checks.number("t", t), 0
     problems: dict[str, str] = {}

@@ -11,7 +11,7 @@ from .._private.gateway.compiled.precise import Precise
 from .._private.types import ArrayLike, Formulation, StabilizationName, SystemLike
 from ..errors import UnreachableTolerance, WrongValue, ZerodriftError
 from ..runs.arguments import methods, settings
-from ..systems.base import BaseSystem, system_of
+from ..systems.base import BaseSystem, system_of, unswitched
 from .certificate import Reference
 from .reference_precise import PRECISIONS, PreciseSearch, functions_of
 from .reference_runs import Difference, Motion
@@ -121,7 +121,7 @@ def reference(
     True
     """
     wanted = None if error is None else checks.number("error", error, above=0)
-    system = system_of(system, p0, v0)
+    system = unswitched(system_of(system, p0, v0), "a reference")
     pairs = _pairs(system, formulations)
     bounds = {"first_step": first_step, "max_step": max_step, "max_move": max_move}
     motion = Motion(system, checks.span(t_span), p0, v0, t_eval, stabilization, pairs[0][0], bounds)

@@ -15,7 +15,7 @@ from ..runs.arguments import methods, settings
 from ..runs.open.keyboard import progress_of
 from ..runs.open.threads import side_by_side
 from ..runs.samples.solution import Solution
-from ..systems.base import BaseSystem, system_of
+from ..systems.base import BaseSystem, system_of, unswitched
 from . import reference as certified
 from .bench import Bench, Row, Setting
 from .work_precision import default_steps, not_excluded
@@ -170,7 +170,7 @@ def _benches(system: Any, span: tuple[float, float], p0: Any, v0: Any, values: n
         reference = certified.reference(system, span, p0, v0, error=None) if reference is None else reference
         return Bench(system, span, p0, v0, reference)
 
-    system = system_of(system, p0, v0)
+    system = unswitched(system_of(system, p0, v0), "a stability map")
     if isinstance(system, BaseSystem) or not callable(system):
         return [bench(system, reference)] * len(values)
     return [bench(system_of(system(value), p0, v0), None) for value in values]

@@ -16,7 +16,7 @@ from .._private.gateway.known_events import Reading
 from .._private.rotations import COMPONENTS
 from ..errors import WrongName, WrongType, WrongValue
 from .defaults import Defaults
-from .measure_values import Watching
+from .measure_values import Watching, component_names
 from .parameter_tables import NumberTables
 from .structure import Structure, of_core
 
@@ -267,6 +267,11 @@ class BaseSystem(Defaults):
         """Names of all measures."""
         return list(self._watching.known)
 
+    def _names_of_scalars(self) -> list[str]:
+        """Names of all scalar measures and of components of the others, and "t"."""
+        known = self._watching.known
+        return ["t", *(part for name, (_, size) in known.items() for part in component_names(name, () if size == 1 else (size,)))]
+
     def _names_of_quantities(self) -> list[str]:
         """Names of all measures, coordinates, velocities and constraints."""
         return [*self._names_of_measures(), *self._columns_of]
@@ -322,6 +327,20 @@ def system_of(given: Any, *state: Any) -> Any:
         raise WrongType(f"p0 and v0 are for a system, whose coordinates are known, and {given.name!r} is a mechanism: say where "
                         'it starts by its start(), or take its system("joint")', "conflicting-arguments")
     return given.system()
+
+
+def switches_of(system: Any) -> dict[str, int]:
+    """Joints that let go and join, by name, with the numbers by which actions of events name them."""
+    return {name: gateway.SWITCHES - i for i, (name, kind) in enumerate(getattr(system, "_groups", ())) if kind == "two-sided"}
+
+
+def unswitched(given: Any, what: str) -> Any:
+    """System of an argument whose constraints are active at all times; ValueError for one with contacts, which has phases."""
+    system = system_of(given)
+    if groups := getattr(system, "_groups", ()):
+        raise WrongValue(f"{what} must have constraints that are active at all times, and {groups[0][0]!r} of {system.name} "
+                         "switches: simulate it, or leave out contacts, stops and dry friction", "not-available")
+    return system
 
 
 def _listed(variables: Sequence[Variable]) -> str:

@@ -29,6 +29,8 @@ class Defaults:
     """Defaults: a system without advice, drawing, inputs, series and other coordinates."""
 
     name: str
+    _groups: Sequence[tuple[str, str]] = ()     # names and kinds of groups of constraints that switch
+    _latches: Sequence[Any] = ()                # latches, which join joints and let them go at events
 
     if TYPE_CHECKING:       # attributes, which mechanisms compute at first use
 

@@ -130,6 +130,9 @@ class Watching:
         if known is None:
             formulation, states = _formulation(solution.settings["formulation"]), _states(solution, part)
             is_own = core is not self.core
+            if core.c.groups:
+                return gateway.accelerations_with(core, formulation, *states, solution.multipliers[part]), np.array(
+                    solution.multipliers[part])
             vdot, _, chosen = gateway.accelerations(core, formulation, 1, *states, is_own=is_own)
             known = vdot, np.array(solution.multipliers[part])
             if chosen.any():

@@ -12,7 +12,7 @@ from .._private.types import ArrayLike, MeasureLike, Measures, SystemLike, Value
 from ..errors import WrongType, WrongValue
 from ..mechanisms.elements.measures import name_of
 from ..mechanisms.system import MechanismSystem
-from ..systems.base import system_of
+from ..systems.base import unswitched
 from . import walk
 from .curve import Knot, Segment
 from .motion import Motion
@@ -131,7 +131,7 @@ def reach(system: SystemLike, measure: MeasureLike, *, hold: Values | Measures =
 
 
 def _mechanism(system: Any) -> MechanismSystem:
-    system = system_of(system)
+    system = unswitched(system, "a trace")
     if not isinstance(system, MechanismSystem):
         raise WrongType(f"system must be a mechanism of bodies and joints, or its system, not {checks.shown(system)}")
     if system._drawing.dimension == 3:

@@ -24,6 +24,7 @@ from .base import (
     PAUSED,
     PROCESSOR_UNIT,
     ROW_VALUES,
+    SWITCHES,
     TERMS,
     WARNING_LIMITS,
     Card,
@@ -43,7 +44,7 @@ from .inputs import Following, Inputs
 from .kinematics import Prescribing, Tracked, quintic_spline
 from .known_events import KnownEvent
 from .measures import MAX_LEAST, Acting, Outputs
-from .operations import acceleration, accelerations, needed_efforts, project, states_between
+from .operations import acceleration, accelerations, accelerations_with, needed_efforts, project, states_between
 from .packed_layout import CONSTANT, DIAGONAL, PACKED, Packing
 from .perturbation import PerturbedCore, perturbed
 from .records import COUNTS, Record, row_bytes

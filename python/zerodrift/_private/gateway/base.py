@@ -22,6 +22,7 @@ LAYOUT = ffi.string(lib.zd_layout).decode()                 # the fingerprint of
 ROW_VALUES = lib.ZD_ROW_VALUES      # for how many numbers of a row's parameters settings have room
 
 FIXED_STEPS, ADAPTIVE_STEPS = lib.ZD_FIXED_STEPS, lib.ZD_ADAPTIVE_STEPS
+SWITCHES = lib.ZD_SWITCHES       # input of an action of an event that switches the first group
 DONE, PAUSED, FULL, EVENT, CALLBACK = lib.ZD_DONE, lib.ZD_PAUSED, lib.ZD_FULL, lib.ZD_EVENT, lib.ZD_CALLBACK
 BAD_ARGUMENT, BAD_INPUT, COLLAPSED = lib.ZD_BAD_ARGUMENT, lib.ZD_BAD_INPUT, lib.ZD_COLLAPSED
 INTERRUPTED = 3     # positive, as it is Python that stops early

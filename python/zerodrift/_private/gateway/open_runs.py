@@ -68,6 +68,13 @@ class OpenRun(Run):
         """Move to another state at this time; return the status."""
         return lib.zd_run_set_state(self.c, doubles(p, self._core.nq), doubles(v, self._core.nv))
 
+    def switch(self, group: int, how: str) -> int:
+        """Release or join a group of constraints: "release", "join", or "here" to join it as it stands; return the status."""
+        ways = {"release": lib.ZD_RELEASED, "join": lib.ZD_JOINED, "here": lib.ZD_JOINED_HERE}
+        status = lib.zd_run_switch(self.c, group, ways[how])
+        self._note_changes()
+        return status
+
     @property
     def acting(self) -> int:
         """Index of the event at which the caller is to act; -1: none."""

@@ -22,16 +22,19 @@ def _columns(columns: dict[str, tuple[np.ndarray, int]]) -> tuple[dict[str, Any]
 
 
 def states_between(core: CoreSystem, settings: Any, t: np.ndarray, p: np.ndarray, v: np.ndarray, energy_input: np.ndarray | None,
-                   ends_in_event: bool, times: np.ndarray, *, is_own: bool = False) -> tuple[np.ndarray, np.ndarray]:
+                   ends_in_event: bool, times: np.ndarray, *, state: np.ndarray | None = None,
+                   is_own: bool = False) -> tuple[np.ndarray, np.ndarray]:
     """`zd_states_between`: p (k, nq) and v (k, nv) at times (k,) between the samples t, p, v of a run.
 
-    is_own: the system's data belong to the caller.
+    state: (k, groups) of the groups of constraints from each sample on. is_own: the system's data belong to the caller.
     """
     core, message, rows, count = core if is_own else core.for_run(), ffi.new("char[]", MESSAGE_SIZE), len(t), len(times)
     columns = {"t": (t, rows), "p": (p, rows * core.nq), "v": (v, rows * core.nv)}
     if energy_input is not None:
         columns["input"] = energy_input, rows
     memory, stride = _columns(columns)
+    if state is not None:
+        memory["state"] = ffi.from_buffer("signed char[]", state)
     saved = ffi.new("zd_saved *", {"samples": rows, "ends_in_event": ends_in_event, "stride": stride, **memory})
     found_p, found_v = np.empty((count, core.nq)), np.empty((count, core.nv))
     found = doubles(found_p, count * core.nq, writable=True), doubles(found_v, count * core.nv, writable=True)
@@ -64,6 +67,19 @@ def accelerations(core: CoreSystem, formulation: int, on_singular: int, t: np.nd
     if status:
         raise core.error or error_of(status, text(message))
     return vdot, multipliers, flags != 0
+
+
+def accelerations_with(core: CoreSystem, formulation: int, t: np.ndarray, p: np.ndarray, v: np.ndarray,
+                       multipliers: np.ndarray) -> np.ndarray:
+    """`zd_accelerations_with`: vdot (k, nv) of a system with groups of constraints, whose multipliers (k, m) are known."""
+    core, k = core.for_run(), len(t)
+    vdot, message = np.empty((k, core.nv)), ffi.new("char[]", MESSAGE_SIZE)
+    status = lib.zd_accelerations_with(core.c, formulation, k, doubles(t, k), doubles(p, k * core.nq), doubles(v, k * core.nv),
+                                       doubles(np.ascontiguousarray(multipliers), k * core.m),
+                                       doubles(vdot, vdot.size, writable=True), message, MESSAGE_SIZE)
+    if status:
+        raise core.error or error_of(status, text(message))
+    return vdot
 
 
 def needed_efforts(core: CoreSystem, states: Sequence[np.ndarray], rows: np.ndarray, weight: np.ndarray, length: float,

@@ -127,6 +127,8 @@ class Run:
 
     Attributes
     ----------
+    transitions : list of (float, list of int, list of float, list of float)
+        Time in s of the start and of each change of phase, and by group the state, the impulse in N s and the energy lost in J.
     jumped : list of (float, str, float)
         Time in s of each jump of the state, the name of what made it, and the change of the energy in J.
     """
@@ -156,6 +158,10 @@ class Run:
         self._run = ffi.gc(run, lib.zd_run_free)
         self.jumped: list[tuple[float, str, float]] = []
         self._jumps = lib.zd_run_energy_jump(run).count
+        self._changed = 0
+        self.transitions: list[tuple[float, list[int], list[float], list[float]]] = []
+        self._changes = lib.zd_run_transition(run)
+        self._note_changes()
 
     def begin_saving(self, p0: np.ndarray, v0: np.ndarray) -> None:
         """Allows `save`: called before the first step of a run from this start."""
@@ -172,8 +178,19 @@ class Run:
     def advance(self, record: Record | None, seconds: float) -> int:
         """Make steps for about `seconds`; return the status. The interpreter lock is released meanwhile."""
         status = lib.zd_run_advance(self._run, ffi.NULL if record is None else record.c, seconds)
-        self.note_jump("break")
+        self.note_jump("" if self._note_changes() else "break")
+        if record is None:
+            del self.transitions[:-1]
         return status
+
+    def _note_changes(self) -> bool:
+        """Note the last change of phase in `transitions`, if it is new; return True if it is."""
+        last = self._changes
+        if not last or last.count == self._changed:
+            return False
+        n, self._changed = self._core.c.groups, last.count
+        self.transitions.append((last.t, *(ffi.unpack(values, n) for values in (last.state, last.impulse, last.loss))))
+        return True
 
     def note_jump(self, name: str) -> None:
         """Note the last jump of the state in `jumped`, if it is new; "": it is not noted."""

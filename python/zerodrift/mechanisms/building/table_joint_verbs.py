@@ -13,6 +13,7 @@ from ...errors import WrongType, WrongValue
 from ..elements.frames import perpendicular
 from ..elements.joints import Joint, draws_length, holds_angle, holds_distance
 from ..elements.space_joints import SpaceJoint, advances, is_at_point, is_blade, is_on_plane, swivels
+from .contact_verbs import SWITCHED, with_switches
 from .registry import Elements
 from .space_joint_verbs import FLAT, checked_cut
 from .table_joint_documentation import documentation
@@ -28,11 +29,15 @@ def verb(plane: type[Joint] | None, space: type[SpaceJoint] | None = None) -> Ca
     signature = _signature(plane, space)
     either: Any = plane or space
     parameters = list(signature.parameters.values())[1:]
-    initial = {each.name: each.default for each in parameters if each.default is not each.empty}
-    names, places = {each.name for each in parameters}, [each.name for each in parameters if each.kind is not each.KEYWORD_ONLY]
+    initial = {each.name: each.default for each in parameters if each.default is not each.empty and each.name not in SWITCHED}
+    names = {each.name for each in parameters} - {*SWITCHED}
+    places = [each.name for each in parameters if each.kind is not each.KEYWORD_ONLY]
 
     def make(m: Elements, *given: Any, **named: Any) -> Joint:
         chosen = dict(zip(places, given, strict=False)) | named
+        switched = {word: values for word in SWITCHED if (values := chosen.pop(word, None)) is not None}
+        for word in SWITCHED:
+            named.pop(word, None)
         values = initial | chosen
         if set(values) != names or len(chosen) != len(given) + len(named):
             try:
@@ -42,9 +47,9 @@ def verb(plane: type[Joint] | None, space: type[SpaceJoint] | None = None) -> Ca
         _check_dimension(m, plane, space)
         name = values.pop("name")
         if plane and m.dimension == 2:
-            return _add(m, plane, name, **_taken(m, name, values, plane_words(plane)))
+            return with_switches(m, _add(m, plane, name, **_taken(m, name, values, plane_words(plane))), switched)
         assert space        # as checked
-        return _add_in_space(m, space, name, **_taken(m, name, values, space_words(space)))
+        return with_switches(m, _add_in_space(m, space, name, **_taken(m, name, values, space_words(space))), switched)
 
     make.__name__, make.__qualname__ = either.kind, f"Mechanism.{either.kind}"
     make.__doc__ = documentation(plane, space, list(signature.parameters))
@@ -102,6 +107,9 @@ def _signature(plane: type[Joint] | None, space: type[SpaceJoint] | None) -> ins
     words = [word for word in ORDER if any(word in each for each in in_each)]
     given += [inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, annotation=_annotation(word, initial),
                                 default=initial.get(word, inspect.Parameter.empty)) for word in words]
+    kind = getattr(plane or space, "kind", "")
+    given += [inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, annotation=annotation, default=None)
+              for word, (kinds, annotation) in SWITCHED.items() if not kinds or kind in kinds]
     return inspect.Signature(given, return_annotation=getattr(plane or space, "__name__", ""))
 
 

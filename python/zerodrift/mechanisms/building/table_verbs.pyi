@@ -112,7 +112,9 @@ class Bushing(forces.Bushing):
 
 class TableVerbs(Elements):
     def revolute(self, name: str, first: Side, second: Side, *, axis: ArrayLike | None = None, at: ArrayLike | None = None,
-                 damping: float = 0.0, cut: bool = False) -> Revolute:
+                 damping: float = 0.0, cut: bool = False, friction_torque: float | tuple[float, float] | None = None,
+                 friction: float | tuple[float, float] | None = None, radius: float | None = None,
+                 active: bool | None = None) -> Revolute:
         """Turns one body about a point of the other; a particle is held at that point.
 
         Parameters
@@ -154,7 +156,9 @@ class TableVerbs(Elements):
         """
 
     def prismatic(self, name: str, first: Side, second: Side, *, axis: ArrayLike, at: ArrayLike | None = None,
-                  damping: float = 0.0, cut: bool = False) -> Prismatic:
+                  damping: float = 0.0, cut: bool = False, friction_force: float | tuple[float, float] | None = None,
+                  friction: float | tuple[float, float] | None = None, guide: float | None = None,
+                  active: bool | None = None) -> Prismatic:
         """Slides one body along an axis that turns with the other.
 
         Parameters
@@ -195,7 +199,8 @@ class TableVerbs(Elements):
         VectorMeasure('joint.force')
         """
 
-    def weld(self, name: str, first: Side, second: Side, *, at: ArrayLike | None = None, cut: bool = False) -> Weld:
+    def weld(self, name: str, first: Side, second: Side, *, at: ArrayLike | None = None, cut: bool = False,
+             active: bool | None = None) -> Weld:
         """Fixes one body to the other.
 
         Parameters
@@ -231,7 +236,7 @@ class TableVerbs(Elements):
         VectorMeasure('joint.force')
         """
 
-    def rod(self, name: str, first: Side, second: Side, *, length: float | None = None) -> Rod:
+    def rod(self, name: str, first: Side, second: Side, *, length: float | None = None, active: bool | None = None) -> Rod:
         """Keeps two points at a distance, as a massless rod with a hinge at each end.
 
         Parameters
@@ -264,8 +269,8 @@ class TableVerbs(Elements):
         VectorMeasure('joint.force')
         """
 
-    def slot(self, name: str, first: Side, second: Side, *, axis: ArrayLike, at: ArrayLike | None = None,
-             cut: bool = False) -> Slot:
+    def slot(self, name: str, first: Side, second: Side, *, axis: ArrayLike, at: ArrayLike | None = None, cut: bool = False,
+             active: bool | None = None) -> Slot:
         """Guides a point along a line that turns with the first body.
 
         Parameters
@@ -304,7 +309,8 @@ class TableVerbs(Elements):
         VectorMeasure('joint.force')
         """
 
-    def knife_edge(self, name: str, point: Side, *, along: ArrayLike, normal: ArrayLike | None = None) -> KnifeEdge:
+    def knife_edge(self, name: str, point: Side, *, along: ArrayLike, normal: ArrayLike | None = None,
+                   active: bool | None = None) -> KnifeEdge:
         """Lets a point of a body glide along a direction that turns with the body, and not across.
 
         Parameters
@@ -343,7 +349,7 @@ class TableVerbs(Elements):
         """
 
     def cylindrical(self, name: str, first: Side, second: Side, *, axis: ArrayLike, at: ArrayLike | None = None,
-                    cut: bool = False) -> SpaceCylindrical:
+                    cut: bool = False, active: bool | None = None) -> SpaceCylindrical:
         """Turns one body about an axis of the other, and slides it along.
 
         Parameters
@@ -382,8 +388,8 @@ class TableVerbs(Elements):
         VectorMeasure3('joint.force')
         """
 
-    def planar(self, name: str, first: Side, second: Side, *, normal: ArrayLike, at: ArrayLike | None = None,
-               cut: bool = False) -> SpacePlanar:
+    def planar(self, name: str, first: Side, second: Side, *, normal: ArrayLike, at: ArrayLike | None = None, cut: bool = False,
+               active: bool | None = None) -> SpacePlanar:
         """Slides one body on a plane of the other, and turns it about the plane's normal.
 
         Parameters
@@ -423,7 +429,7 @@ class TableVerbs(Elements):
         """
 
     def screw(self, name: str, first: Side, second: Side, *, axis: ArrayLike, pitch: float, at: ArrayLike | None = None,
-              cut: bool = False) -> SpaceScrew:
+              cut: bool = False, active: bool | None = None) -> SpaceScrew:
         """Turns one body about an axis of the other, along which it advances.
 
         Parameters
@@ -465,7 +471,7 @@ class TableVerbs(Elements):
         """
 
     def spherical(self, name: str, first: Side, second: Side, *, at: ArrayLike | None = None, damping: float = 0.0,
-                  cut: bool = False) -> SpaceSpherical:
+                  cut: bool = False, active: bool | None = None) -> SpaceSpherical:
         """Turns one body about a point of the other; a particle is held at that point.
 
         Parameters
@@ -504,7 +510,7 @@ class TableVerbs(Elements):
         """
 
     def universal(self, name: str, first: Side, second: Side, *, axes: tuple[ArrayLike, ArrayLike], at: ArrayLike | None = None,
-                  damping: float = 0.0, cut: bool = False) -> SpaceUniversal:
+                  damping: float = 0.0, cut: bool = False, active: bool | None = None) -> SpaceUniversal:
         """Joins two bodies by a cross, with an axis on each.
 
         Parameters

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..._private import checks
 from ..._private.types import ArrayLike
-from ...errors import WrongAttribute, WrongType
+from ...errors import WrongAttribute, WrongType, WrongValue
 from . import columns
 from .frames import Pose
 from .immutable import Fixed
@@ -81,6 +81,14 @@ class Point(Fixed):
         return f"<point {self.name or tuple(map(float, self.local))} of {self.body.name}>"
 
 
+class Line(NamedTuple):
+    """Unbounded line of a body, free to the left of ``a -> b``; `Body.line` makes it."""
+
+    body: Any
+    start: np.ndarray       # (2,) in the body's frame, m
+    direction: np.ndarray   # (2,) of length one
+
+
 class Body(Fixed):
     """A rigid body; `Mechanism.body` makes it.
 
@@ -146,6 +154,29 @@ class Body(Fixed):
         size = self.dimension
         local = checks.vector("local", local, size) if at is None else self.pose.local(place("at", at, size))
         return self._register(Point(self, local, name))
+
+    def line(self, start: ArrayLike | Point, end: ArrayLike | Point) -> Line:
+        """The unbounded line through two places of the drawing, that moves with the body, for `Mechanism.contact`.
+
+        Parameters
+        ----------
+        start, end : array_like (2,) or Point
+            In m; what touches the line is on the left of ``start -> end``.
+
+        Returns
+        -------
+        Line
+
+        Raises
+        ------
+        ValueError
+            If both are the same place.
+        """
+        start, end = place("start", start, 2), place("end", end, 2)
+        length = np.hypot(*(end - start))
+        if not length > 0:
+            raise WrongValue("start and end of a line must be two places, not the same one", "geometry")
+        return Line(self, self.pose.local(start), self.pose.local_direction((end - start) / length))
 
     def properties(self, numbers: Numbers) -> MassProperties:
         """Mass, inertia and centre of mass, with parameters that may have been changed."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from . import columns
 from .bodies import Body, Particle, Point
+from .contacts import switching
 from .numbers import Numbers
 from .own_measures import OwnMeasure
 
@@ -37,6 +38,16 @@ class Drawing(NamedTuple):
     def ground(self) -> Body:
         """The body that does not move."""
         return self.elements["ground"]
+
+    @property
+    def free(self) -> Drawing:
+        """The drawing without constraints that switch, by which a start is assembled; the drawing itself if it has none."""
+        switched = switching(self.elements.values())
+        if not switched:
+            return self
+        others = {element.name: element.unswitched for element in switched}
+        elements = {name: others.get(name, each) for name, each in self.elements.items()}
+        return self._replace(elements={name: each for name, each in elements.items() if each is not None})
 
     def joined_points(self) -> list[Point]:
         """Points at which joints, springs and bushings connect bodies."""

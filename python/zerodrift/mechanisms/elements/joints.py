@@ -6,6 +6,8 @@ entry in the table.
 
 from __future__ import annotations
 
+import copy
+from collections.abc import Iterator
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -17,6 +19,7 @@ from .bodies import Point
 from .immutable import Fixed
 from .measures import Measure, scalar, vector
 from .numbers import AS_GIVEN, Numbers
+from .switches import Switch, Switched
 from .user_functions import Law
 
 JOINTS = joint_kinds()
@@ -36,7 +39,8 @@ class Joint(Fixed):
         True if the joint must close a loop, so that no joint coordinate belongs to it.
     """
 
-    kind = ""                           # name in the core's table
+    kind = ""                           # name of the verb
+    table = ""                          # name in the core's table, if that is another one
     row: ClassVar[JointKind]            # entry in the core's table
     coordinate: str | None = None       # coordinate of motors and dampers: "angle" or "displacement"
     is_of_one_body = False              # True if all constraints concern the second body, whose frame has the axis
@@ -46,7 +50,7 @@ class Joint(Fixed):
         """Sets class attributes from the entry of the core's table, except those that the class defines."""
         if not cls.kind:        # joints in space have a table of their own
             return
-        cls.row = JOINTS[cls.kind]
+        cls.row = JOINTS[cls.table or cls.kind]
         cls.coordinate = cls.row.coordinate
         cls.is_of_one_body = all(each.quantity in ("glide", "skid") for each in cls.row.rows)
         said = {"takes": _taken(cls.row), **{name: scalar(name, doc) for name, doc in _measures(cls.row).items()},
@@ -60,10 +64,26 @@ class Joint(Fixed):
                  damping: float = 0.0, cut: bool = False) -> None:
         self.name, self.first, self.second, self.axis = name, first, second, axis       # the axis (2,) in the first body's frame
         self.length, self.damping, self.cut = length, damping, cut
+        self._switched: Switched | None = None
 
     force = vector("force", "Force of the first body on the second through the joint, in the drawing's axes, in N: its "
                    "reaction, and what acts in it: motors, damping, torsion springs. What acts between points or joints, such as "
                    "springs, actuators, gears and couplers, is in measures of its own, and not in this one.")
+
+    switched = property(lambda self: self._switched, doc="Dry friction, and whether it is joined; None: neither.")
+
+    @property
+    def unswitched(self) -> Joint | None:
+        """The joint with which a start is assembled, without what switches; None if it is not joined at the start."""
+        if self._switched and self._switched.active is False:
+            return None
+        joint = copy.copy(self)
+        joint._switched = None
+        return joint
+
+    def switches(self, numbers: Numbers) -> Iterator[Switch]:
+        """Its constraints that switch."""
+        return self._switched.switches(self, numbers) if self._switched else iter(())
 
     @property
     def dimension(self) -> int:
@@ -90,7 +110,8 @@ class Joint(Fixed):
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
         length = {"length": self.length_with(now)} if self.row.takes_length else {}
-        return length if self.coordinate is None else {**length, "damping": self.damping}
+        friction = self._switched.numbers(self) if self._switched else {}
+        return {**length, **friction} if self.coordinate is None else {**length, "damping": self.damping, **friction}
 
     def angle_as_drawn(self) -> float:
         """Relative angle of the bodies in the drawing, where the joint's angle is zero."""

@@ -35,10 +35,11 @@ class SpaceTables(Tables):
 
     entries: Any = space
 
-    def _masses(self) -> Any:
-        return SpaceInertias(self.drawing, self.numbers)
+    masses: Any = SpaceInertias
 
-    def _kind_of_core(self) -> Any:
+    @property
+    def kind_of_core(self) -> Any:      # type: ignore[override]
+        """Class of the core's system."""
         return SpaceCore if max(self.inboard, default=-1) < 0 else SpaceTreeCore
 
     def _inertia(self, body: Body) -> tuple[float, Any]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..._private.gateway.mechanisms import plane as entries
 from ..._private.gateway.mechanisms.core import MechanismCore
-from ..._private.gateway.mechanisms.element_tables import OutputSpec, component_places
+from ..._private.gateway.mechanisms.element_tables import Group, OutputSpec, component_places
 from ..._private.gateway.mechanisms.plane import PlaneCore, Quantity
 from ..elements import columns
 from ..elements.bodies import Body, Particle, Point
@@ -25,6 +25,7 @@ from ..elements.table_forces import UNITS, TableForce, lengths, paths
 from ..loads import teeth
 from . import function_calls, transmission
 from .measure_names import checked_reading, has_coordinate
+from .switch_tables import add_switches
 from .tree import Edge, ends, freedoms, inboard_joints
 
 ORIGIN = np.zeros(2)
@@ -43,12 +44,14 @@ class Tables:
         Name of the element that each relation belongs to.
     """
 
-    entries: Any = entries
+    entries: Any = entries      # in space others
+    masses: Any = Inertias
+    kind_of_core: Any = PlaneCore
 
     def __init__(self, drawing: Drawing, numbers: Numbers, *, in_tree: bool, starts: Mapping[str, float] | None = None) -> None:
         self.drawing, self.numbers, self.starts = drawing, numbers, starts or {}
         self.parameters = {name: numbers.changed.get(name, value) for name, value in drawing.parameters.items()}
-        self.parts, self.joints, self.inertias = drawing.parts(), drawing.of(Joint), self._masses()
+        self.parts, self.joints, self.inertias = drawing.parts(), drawing.of(Joint), self.masses(drawing, numbers)
         self.number = {"ground": 0, **{body.name: i for i, body in enumerate(self.parts, 1)}}
         self.joint_number = {joint.name: i for i, joint in enumerate(self.joints)}
         self.quantities: list[Any] = []     # Quantity, in space that of space
@@ -57,6 +60,7 @@ class Tables:
         self.relation_names: list[str] = []
         self.forces: list[entries.GeneralizedForce] = []
         self.observed: list[OutputSpec] = []
+        self.groups: list[Group] = []
         self.laws = function_calls.Laws()
         self.inboard = self.tree() if in_tree else [-1] * len(self.parts)
         self.joint_rows = [self._joint(joint) for joint in self.joints]
@@ -68,17 +72,12 @@ class Tables:
             self._table_force(element)
         for measure in drawing.of(OwnMeasure):
             self._own_measure(measure)
-
-    def _masses(self) -> Any:
-        return Inertias(self.drawing, self.numbers)
+        add_switches(self)
 
     def core(self, quantities: Sequence[Any] | None = None, observed: Sequence[OutputSpec] = ()) -> MechanismCore:
         """Core system of the tables, with the measures `observed` and their marker quantities; left out: without measures."""
         laws = self.laws if self.laws.acting or any(each.kind == "formula" for each in observed) else None
-        return self._kind_of_core()(self.written(quantities, observed), laws, laws_know_time=self.laws.know_time)
-
-    def _kind_of_core(self) -> Any:
-        return PlaneCore
+        return self.kind_of_core(self.written(quantities, observed), laws, laws_know_time=self.laws.know_time)
 
     def written(self, quantities: Sequence[Any] | None = None, observed: Sequence[OutputSpec] = ()) -> entries.Tables:
         """Tables for the core."""
@@ -86,7 +85,7 @@ class Tables:
                   for body, inboard in zip(self.parts, self.inboard, strict=True)]
         quantities = self.quantities if quantities is None else quantities
         return self.entries.Tables(bodies, self.joint_rows, quantities, self.relations, self.forces, observed, self._gravity(),
-                                   self.reactions(observed), self._length())
+                                   self.reactions(observed), self._length(), self.groups)
 
     def _inertia(self, body: Body) -> tuple[float, Any]:
         return self.inertias.of[body.name][:2]

@@ -11,9 +11,11 @@ import numpy as np
 
 from ..._private import checks
 from ...errors import WrongValue, sentence
+from ..building.contact_verbs import with_switches
 from ..building.table_force_verbs import NEEDED, sides, words
 from ..building.table_joint_verbs import verb
 from ..building.table_verbs import FORCES, PLANE
+from ..elements.bodies import Line
 from ..elements.forces import Gravity
 from ..elements.immutable import amend
 from ..elements.joints import Joint
@@ -84,8 +86,14 @@ def _element(m: Any, description: Any, where: str) -> None:
     if not isinstance(kind, str) or kind not in made:
         raise WrongValue(f"{where} is of kind {kind!r}, which is not known; there are {', '.join(made)}", "unreadable-file")
     where = f"{where} ({kind} {name!r})"
+    description, switched = dict(description), description.get("switched")
+    if description.pop("switched", None) is not None:
+        _at(where, checks.instance, "switched", switched, dict, "a dict of arguments")
     given = _fields(made[kind], description, where, skip=("kind", "name"))
     _at(where, made[kind], m, name, **given)
+    if switched:
+        joint = _at(where, checks.instance, "an element that switches", m[name], Joint, "a joint")
+        _at(where, with_switches, m, joint, switched)
 
 
 def _fields(function: Callable[..., Any], description: Any, where: str, skip: tuple[str, ...]) -> dict[str, Any]:
@@ -135,6 +143,23 @@ def _rolling(m: Any, name: str, *, first: Any, second: Any, radius: Any, normal:
     joint = m.rolling(name, line.body, place_from_json(m, second), radius=radius, at=line.drawn,
                       normal=line.body.pose.direction(normal))
     amend(joint, first=line, axis=np.array([normal[1], -normal[0]]))
+
+
+def _contact(m: Any, name: str, *, first: Any, second: Any, radius: Any, normal: Any, restitution: Any, friction: Any) -> None:
+    normal, line = direction_from_json("normal", normal), point_of_body(m, first)
+    along = np.array([normal[1], -normal[0]])
+    shape = Line(line.body, line.local, along)
+    contact = m.contact(name, place_from_json(m, second), shape, radius=radius, restitution=restitution,
+                        friction=tuple(checks.vector("friction", friction, 2).tolist()))
+    amend(contact, first=line, axis=along)
+
+
+def _stop(m: Any, name: str, *, measure: Any, lower: Any = None, upper: Any = None, restitution: Any) -> None:
+    m.stop(name, measure, lower=lower, upper=upper, restitution=restitution)
+
+
+def _latch(m: Any, name: str, *, joint: Any, when: Any, until: Any = None) -> None:
+    m.latch(name, joint, when=when, until=until)
 
 
 def _by_row(joint: type[Joint]) -> Callable[..., None]:
@@ -279,7 +304,8 @@ def _table_forces(dimension: int) -> dict[str, Callable[..., None]]:
 
 
 MADE: dict[str, Callable[..., None]] = {
-    "body": _body, "link": _link, "particle": _particle, "point": _point, "rolling": _rolling,
+    "body": _body, "contact": _contact, "stop": _stop, "latch": _latch, "link": _link, "particle": _particle, "point": _point,
+    "rolling": _rolling,
     "gear": _gear, "rack_pinion": _rack_pinion, "coupler": _coupler,
     "constraint": _constraint, "nonholonomic": _nonholonomic, "cam": _cam,
     "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque,

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ...errors import WrongValue
 from ...laws.table import Table
 from ..building.coupling_verbs import _Follows, _Profile, _Sum
 from ..building.table_verbs import FORCES
@@ -26,8 +27,8 @@ VERSION = 1             # version of the format
 def described(drawing: Drawing) -> dict[str, Any]:
     """Description of a mechanism as dicts and lists; ValueError names a callable, which cannot be saved."""
     written = WRITTEN_IN_SPACE if drawing.dimension == 3 else WRITTEN
-    elements = [{"kind": kind_of(element), "name": element.name, **written[kind_of(element)](element, drawing)}
-                for element in drawing.elements.values() if element is not drawing.ground]
+    elements = [{"kind": kind_of(element), "name": element.name, **written[kind_of(element)](element, drawing),
+                 **_switched(element)} for element in drawing.elements.values() if element is not drawing.ground]
     return {"zerodrift": WHAT, "version": VERSION, "name": drawing.name, "dimension": drawing.dimension,
             "gravity": numbers(drawing.gravity), "parameters": dict(drawing.parameters), "elements": elements,
             "start": {name: _plain(value) for name, value in drawing.held.items()},
@@ -82,6 +83,25 @@ def _joint(joint: Any, drawing: Drawing) -> dict[str, Any]:
     given = {word: getattr(joint, word) for word in joint.takes}
     return {**sides(joint, drawing), **{word: numbers(value) if isinstance(value, np.ndarray) else value
                                          for word, value in given.items() if value is not None}}
+
+
+def _switched(element: Any) -> dict[str, Any]:
+    """Dry friction of a joint, and whether it is joined, if it has any of them."""
+    switched = getattr(element, "switched", None)
+    return {"switched": switched.given(element)} if switched else {}
+
+
+def _stop(stop: Any, drawing: Drawing) -> dict[str, Any]:
+    return {"measure": stop.of, **stop.limits, "restitution": stop.restitution}
+
+
+def _latch(latch: Any, drawing: Drawing) -> dict[str, Any]:
+    given = {word: value for word, value in (("when", latch.when), ("until", latch.until)) if value is not None}
+    for word, value in given.items():
+        if not isinstance(value, str):
+            raise WrongValue(f"{word} of latch {latch.name!r} must be a measure or text to be saved, not {value!r}",
+                             "not-portable")
+    return {"joint": latch.joint, **given}
 
 
 # ---- couplings, drives and forces ----
@@ -153,7 +173,8 @@ def _table_force(force: TableForce, drawing: Drawing) -> dict[str, Any]:
 
 WRITTEN: dict[str, Callable[[Any, Drawing], dict[str, Any]]] = {
     **dict.fromkeys(JOINTS, _joint), **dict.fromkeys((kind for kind in FORCES if kind in ELEMENTS), _table_force),      # type: ignore[has-type]
-    "body": _body, "link": _link, "particle": _particle, "point": _point, "gear": _linear,
+    "body": _body, "contact": _joint, "stop": _stop, "latch": _latch, "link": _link, "particle": _particle, "point": _point,
+    "gear": _linear,
     "rack_pinion": _linear, "coupler": _coupling, "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
     "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque, "measure": _measure, "gravity": _gravity,
     "group": _group}

@@ -106,7 +106,7 @@ class Reported(BaseSystem):
         return found[0].instructions if found else 0
 
     def _why_interpreted(self, steps: float) -> str | None:
-        if self._is_written_out or self._why_not_compiled() is not None:
+        if self._is_written_out or self._groups or self._why_not_compiled() is not None:
             return None
         saved = float(f"{self._saved(steps):.1g}")     # digits that the count has
         if saved >= WORTH_COMPILING and compilers.find() is None:

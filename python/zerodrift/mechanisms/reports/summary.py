@@ -10,6 +10,7 @@ import numpy as np
 
 from ...errors import sentence
 from ..elements.bodies import Point
+from ..elements.contacts import switching
 from ..elements.drawing import Drawing
 from ..elements.forces import Actuator, Force, Gravity, Motor
 from ..elements.joints import Joint
@@ -36,6 +37,7 @@ def headline(drawing: Drawing) -> str:
 
 def report(drawing: Drawing) -> str:
     """Elements, degrees of freedom, redundant constraints, drives, and the coordinates that a simulation uses."""
+    switched, drawing = switching(drawing.elements.values()), drawing.free
     if not drawing.parts():
         return f"{headline(drawing)}\n nothing moves yet"
     try:
@@ -50,6 +52,8 @@ def report(drawing: Drawing) -> str:
     lines += [f" {note}" for note in counted.notes]
     driven = [f"{placed(motor)} by {motor.name} ({motor.drives})" for motor in drawing.of(Motor)]
     driven += [f"{actuator.name} ({actuator.drives})" for actuator in drawing.of(Actuator)]
+    if switched:
+        lines.append(f" switched: {_listed([f'{each.name} ({each.kind})' for each in switched])}")
     if driven:
         lines.append(f" driven: {', '.join(driven)}")
     lines += [f" force {force.name} is a pair at two points, with a free moment: value times {_arm(force):.3g} m as drawn"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -12,7 +12,7 @@ from ..._private import checks, gateway
 from ..._private.gateway.known_events import Reading
 from ..._private.types import Bindings, Expression, MeasureLike
 from ...errors import WrongType, WrongValue
-from ...systems.base import BaseSystem
+from ...systems.base import BaseSystem, switches_of
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,8 @@ class Event:
         Action at each occurrence, after which the run goes on: a dict has values of inputs by name, which need not be named as
         inputs elsewhere. The core sets them, in `simulate`, `Run`, `ensemble`, `block`, `c_source`, `fmu` and live views. Or a
         function, of `simulate` and `Run`: ``then(run)`` may set inputs and `Run.set_state`. A terminal event acts, too, and the
-        last sample is the one before.
+        last sample is the one before. The name of a joint that was made with `active` with False lets it go, with True it joins
+        as it stands.
 
     Notes
     -----
@@ -121,8 +122,9 @@ class Event:
 
 def _action(name: str, then: Any) -> Callable[[Any], object] | Mapping[str, float] | None:
     if isinstance(then, Mapping):
-        return {checks.instance(f"a name in then of {name}", key, str, "the name of an input"):
-                checks.number(f"then[{key!r}] of {name}", value) for key, value in then.items()}
+        return {checks.instance(f"a name in then of {name}", key, str, "the name of an input or a joint"):
+                float(value) if isinstance(value, bool) else checks.number(f"then[{key!r}] of {name}", value)
+                for key, value in then.items()}
     if then is not None and not callable(then):
         raise WrongType(f"then of {name} must be a function of the run, or a dict of inputs, not {checks.shown(then)}")
     return then
@@ -182,6 +184,7 @@ class Watched(NamedTuple):
     terminal: int
     known: gateway.KnownEvent | None   # what the core reads, or None
     then: Callable[[Any], object] | Mapping[str, float] | None = None
+    is_own: bool = True         # False: of a latch of the mechanism, not of the argument `events`
 
     def actions(self, places: Mapping[str, Any]) -> list[tuple[int, float]]:
         """Indices of the inputs that it sets, with their values; -1: a function acts."""
@@ -215,8 +218,9 @@ def events(given: Any, system: BaseSystem, *, may_act: bool = False) -> tuple[Wa
 
     Functions as `then` are refused unless they may act.
     """
+    latches = tuple(latch for each in system._latches for latch in _of_latch(each, system))
     if given is None:
-        return None
+        return latches or None
     is_one = not isinstance(given, Sequence) or isinstance(given, str)
     found = (_event("events", given, system),) if is_one else tuple(
         _event(f"events[{i}]", each, system) for i, each in enumerate(given))
@@ -224,14 +228,31 @@ def events(given: Any, system: BaseSystem, *, may_act: bool = False) -> tuple[Wa
         if callable(each.then) and not may_act:
             raise WrongValue(f"{each.name}.then must be a dict of inputs here: functions act in simulate and Run",
                              "not-available")
+    return found + latches
+
+
+def _of_latch(latch: Any, system: BaseSystem) -> list[Watched]:
+    """Events at which a latch joins its joint, and lets it go."""
+    found = []
+    for word, given, joins in (("when", latch.when, True), ("until", latch.until, False)):
+        if given is None:
+            continue
+        what = f"{word} of latch {latch.name!r}"
+        event = given if isinstance(given, Event) else Event(given, direction=1)
+        if isinstance(event.what, str) and not system._watching.find(event.what):
+            from .formula_text import Parser  # slow to import
+
+            event = replace(event, what=Parser(what, event.what, system._names_of_scalars()).expression())
+        watched = replace(event, direction=event.direction or 1, then={latch.joint: joins}).watched(latch.name, system)
+        found.append(watched._replace(is_own=False))
     return found
 
 
-def inputs_of(given: Any) -> list[str]:
-    """Inputs that are set by the dicts of events, each once."""
+def inputs_of(given: Any, system: Any) -> list[str]:
+    """Inputs of a system that are set by the dicts of events, each once; joints that let go and join are not inputs."""
     listed = given if isinstance(given, Sequence) and not isinstance(given, str) else [given]
     return list(dict.fromkeys(key for each in listed if isinstance(each, Event) and isinstance(each.then, Mapping)
-                              for key in each.then))
+                              for key in each.then if key not in switches_of(system)))
 
 
 def _event(name: str, given: Any, system: BaseSystem) -> Watched:

@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..._private import checks, gateway
-from ...errors import CompilationFailed, CostWarning, DrawingWarning, SingularSystem, advised
-from ...systems.base import BaseSystem, closed_form_core_of, core_of
+from ...errors import CompilationFailed, CostWarning, DrawingWarning, SingularSystem, WrongValue, advised
+from ...systems.base import BaseSystem, closed_form_core_of, core_of, switches_of
 from ..arguments import events as _events
 from ..arguments import outputs as _outputs
 from ..arguments import settings
@@ -90,7 +90,7 @@ class Prepared(NamedTuple):
             recorded = _outputs.Recorded(names, self.of, core, measured)
         if self.events is not None:
             watcher = gateway.Watcher(core, self.events, measured or self.of._watching.core, is_own=inputs is not None,
-                                      places=self.declared.places() if self.declared else None)
+                                      places={**switches_of(self.of), **(self.declared.places() if self.declared else {})})
         return self._replace(core=core, measured_with_inputs=measured, inputs=inputs, recorded=recorded, watcher=watcher)
 
 
@@ -100,9 +100,12 @@ def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: A
     """Check the arguments of a run. `is_open`: it has no end; `span` only serves the checks of its start."""
     system, p0, v0 = start_of(system, p0, v0, span[0])
     core_of(system)
-    inputs = _with_inputs(inputs, _events.inputs_of(events))
+    inputs = _with_inputs(inputs, _events.inputs_of(events, system))
     declared = declared_inputs(inputs, system, speeds, arguments.step)
     of = declared.of.system if declared else system
+    if speeds.hold and of._groups:
+        raise WrongValue(f"hold must be False for {of.name}, as impulses of drives do not know its contacts, stops and joints "
+                         "that switch", "not-available")
     plan = settings.plan(of, span, arguments)
     plan.core_settings.is_open = is_open
     takes = not is_open and gateway.takes_closed_form(core_of(of), plan.core_settings)

@@ -17,7 +17,7 @@ from ..arguments import outputs as _outputs
 from ..arguments.inputs import History
 from ..arguments.methods import name_of
 from ..arguments.settings import core_settings
-from ..samples.saving import EVENTS, JUMPS
+from ..samples.saving import EVENTS, JUMPS, transitions
 from ..samples.solution import Solution
 from . import diagnosis
 from .beginning import Prepared
@@ -47,7 +47,7 @@ def solution_of(ready: Prepared, run: gateway.Run, record: Any, results: gateway
                           history),
         status=outcome.status, success=outcome.status in (gateway.DONE, gateway.EVENT), message=message_of(run, outcome),
         settings=ready.settings, system=ready.system, t_span=span or ready.span,
-        jumps=jumps_of(run.jumped, ready.events, found.get("t_events")), **found)
+        jumps=jumps_of(run.jumped, ready.events, found.get("t_events")), transitions=transitions(run.transitions), **found)
 
 
 def solution_of_rows(system: BaseSystem, span: tuple[float, float], chosen: dict[str, Any], record: gateway.Record,
@@ -56,7 +56,7 @@ def solution_of_rows(system: BaseSystem, span: tuple[float, float], chosen: dict
     """Solution of a completed run that the core made in a batch; `events` are the t, p and v of its events."""
     return Solution._of_run(functools.partial(_arrays_and_stats, record, results, seconds, None, system, chosen),
                             status=status, success=True, message=message, settings=chosen, system=system, t_span=span,
-                            jumps=jumps_of((), (), ()),
+                            jumps=jumps_of((), (), ()), transitions=transitions(),
                             **({} if events is None else dict(zip(EVENTS, events, strict=True))))
 
 
@@ -127,7 +127,8 @@ def _shown(error: BaseException | None) -> str:
 def jumps_of(rows: Sequence[tuple[float, str, float]], events: Any, times: Any) -> np.ndarray:
     """Field `jumps`: these rows, and those of actions without a change of the energy."""
     known = {(t, name) for t, name, _ in rows}
-    acts = [(t, event.name, 0.0) for event, found in zip(events or (), times or (), strict=True) if event.then is not None
+    own = [event for event in events or () if event.is_own]
+    acts = [(t, event.name, 0.0) for event, found in zip(own, times or (), strict=True) if event.then is not None
             for t in found.tolist() if (t, event.name) not in known]
     return np.array(sorted([*rows, *acts], key=lambda row: row[0]), JUMPS)
 
@@ -136,7 +137,9 @@ def events_found(watcher: gateway.Watcher | None) -> dict[str, tuple[np.ndarray,
     """Fields `t_events`, `p_events` and `v_events`, each with one array per event; empty without events."""
     if watcher is None:
         return {}
-    arrays = [watcher.arrays(event) for event in range(len(watcher.events))]
+    arrays = [watcher.arrays(i) for i, event in enumerate(watcher.events) if event.is_own]
+    if not arrays and watcher.events:
+        return {}
     for array in itertools.chain(*arrays):
         array.setflags(write=False)
     return dict(zip(EVENTS, tuple(zip(*arrays, strict=True)) or ((), (), ()), strict=True))

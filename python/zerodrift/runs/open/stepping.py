@@ -9,6 +9,7 @@ from typing import Any
 from ..._private import checks, gateway
 from ..._private.types import ArrayLike
 from ...errors import InUse, WrongValue
+from ...systems.base import switches_of
 from ..arguments.inputs import Drives, History, Jump
 from ..samples import recording
 from ..samples.solution import Solution
@@ -163,6 +164,60 @@ class Stepping(Present):
             core.note_jump("")
             raise error
         core.note_jump("set_state" if core.acting < 0 else self._ready.events[core.acting].name)
+
+    def release(self, name: str) -> None:
+        """Let a joint go that was made with `active`; what it held goes on from the present state.
+
+        Parameters
+        ----------
+        name : str
+            Name of the joint.
+
+        Raises
+        ------
+        ValueError
+            If there is no such joint.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("drop", gravity=(0, -9.81))
+        >>> ball = m.particle("ball", 1.0, at=(0, 1))
+        >>> hook = m.revolute("hook", m.ground, ball, active=True)
+        >>> run = zd.Run(m, step=0.01)
+        >>> run.step(10)
+        >>> run.release("hook")
+        >>> run.step(10)
+        >>> round(run["ball.position.y"], 6)
+        0.95095
+        """
+        self._switch(name, "release")
+
+    def join(self, name: str, *, here: bool = False) -> None:
+        """Join a joint that was made with `active`, with a plastic impact (25b), which `Solution.impacts` has.
+
+        Parameters
+        ----------
+        name : str
+            Name of the joint.
+        here : bool
+            True: it holds the bodies as they stand; False: it must be closed to 1e-9 of the characteristic length.
+
+        Raises
+        ------
+        ValueError
+            If there is no such joint.
+        InconsistentStart
+            If it is open, with its gap.
+        """
+        self._switch(name, "here" if checks.instance("here", here, bool, "True or False") else "join")
+
+    def _switch(self, name: str, how: str) -> None:
+        known = switches_of(self._ready.of)
+        checks.choice("name", getattr(name, "name", name), known)
+        if status := self._core.switch(gateway.SWITCHES - known[getattr(name, "name", name)], how):
+            raise self._core.error(status)
+        self._core.note_jump("")
 
     def _note_jump(self) -> None:
         """Note the jump of speeds in the first step of the last advance, if there was one."""

@@ -12,6 +12,7 @@ from ...errors import WrongValue
 from ...systems.base import closed_form_core_of
 from ..arguments.inputs import Declared
 from ..arguments.settings import core_settings
+from .phases import state_from_samples
 
 
 def states_between(solution: Any, rows: np.ndarray, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -20,8 +21,9 @@ def states_between(solution: Any, rows: np.ndarray, times: np.ndarray) -> tuple[
     samples = (solution.t, solution.p, solution.v, solution.energy_input, solution.status == gateway.EVENT)
     p, v = np.empty((len(times), solution.p.shape[1])), np.empty((len(times), solution.v.shape[1]))
     is_own = "inputs" in solution.settings
+    state = state_from_samples(solution.t, solution.transitions)
     for core, part in _cores(solution, settings, rows):
-        p[part], v[part] = gateway.states_between(core, settings, *samples, times[part], is_own=is_own)
+        p[part], v[part] = gateway.states_between(core, settings, *samples, times[part], state=state, is_own=is_own)
     return p, v
 
 

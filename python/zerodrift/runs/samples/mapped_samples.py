@@ -19,7 +19,7 @@ import numpy as np
 from ..._private import gateway
 from ...errors import WrongValue, sentence
 from ...systems.base import BaseSystem
-from .saving import JUMPS, unpacked
+from .saving import JUMPS, transitions, unpacked
 
 FORMAT = "zerodrift samples"        # key of the description, with the number of the format
 MAGIC = b"\x93NUMPY"
@@ -73,7 +73,8 @@ def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> d
         rest = _rest(file.read())
     found = columns(path, begin, rows, row, layout["columns"], layout["integers"])
     description = json.loads(str(rest.pop("zerodrift"))) if rest else _unfinished(layout["solution"], found["t"])
-    arrays = rest or {"position_size": np.array(layout["position size"]), "jumps": np.zeros(0, JUMPS)}
+    arrays = rest or {"position_size": np.array(layout["position size"]), "jumps": np.zeros(0, JUMPS),
+                      "transitions": transitions()}
     solution, outputs = unpacked(description, arrays, rebuilt), _split(found.pop("outputs", None), layout["outputs"])
     energies = dict.fromkeys(("potential_energy", "energy_input", "energy_violation"))
     named = {NAMES.get(name, name): column for name, column in found.items()}

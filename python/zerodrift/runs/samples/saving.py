@@ -18,6 +18,15 @@ if TYPE_CHECKING:
     from pathlib import Path  # slow to import, as json is
 
 JUMPS = np.dtype([("t", float), ("name", "U64"), ("energy", float)])     # rows of a solution's `jumps`
+
+
+def transitions(rows: Sequence[Any] = ()) -> np.ndarray:
+    """Field `transitions` of a solution: changes of phase as the core reports them."""
+    groups = len(rows[0][1]) if rows else 0
+    kind = np.dtype([("t", float), ("state", "i1", (groups,)), ("impulse", float, (groups,)), ("loss", float, (groups,))])
+    return np.array([tuple(row) for row in rows], kind)
+
+
 EVENTS = ("t_events", "p_events", "v_events")   # of a solution: an array for each event
 
 

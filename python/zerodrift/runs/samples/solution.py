@@ -19,6 +19,7 @@ from .between_samples import states_between
 from .columns import to_csv, to_excel, to_frame
 from .loads import Loaded
 from .named import Named, Stats
+from .phases import Phase, impacts_of, phases_of
 from .saving import write
 from .summary import summary
 
@@ -94,6 +95,9 @@ class Solution(Named, Loaded):
         Actions at events, and jumps of speeds that are prescribed or inputs, in order of time: structured, with the fields `t` in
         s, `name` of the event or motor, or "break" of a law, and `energy`, the change of the energy in J, which the balance
         includes.
+    transitions : ndarray (k,)
+        Start and changes of phase of a system with contacts, from which `phases` and `impacts` are made: structured, with the
+        fields `t` in s and, by group of constraints, `state`, `impulse` in N s and `loss` in J. Empty for other systems.
     t_events : tuple of ndarray, or None
         Times of each event in s; None without `events`.
     p_events, v_events : tuple of ndarray (k, nq), (k, nv), or None
@@ -123,6 +127,7 @@ class Solution(Named, Loaded):
     system: BaseSystem
     t_span: tuple[float, float]
     jumps: np.ndarray
+    transitions: np.ndarray
     t_events: tuple[np.ndarray, ...] | Any = None
     p_events: tuple[np.ndarray, ...] | Any = None
     v_events: tuple[np.ndarray, ...] | Any = None
@@ -137,6 +142,26 @@ class Solution(Named, Loaded):
                 value.setflags(write=False)
         for array in itertools.chain(self.t_events or (), self.p_events or (), self.v_events or (), self.outputs.values()):
             array.setflags(write=False)
+
+    @property
+    def phases(self) -> list[Phase]:
+        """Phases of the run, in order: each has `t0`, `t1` in s and the `state` of each contact, stop and joint by name.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("ball", gravity=(0, -9.81))
+        >>> ball = m.particle("ball", 1.0, at=(0, 1))
+        >>> floor = m.contact("floor", ball, m.ground.line((0, 0), (1, 0)))
+        >>> [str(phase) for phase in zd.simulate(m, 1.0).phases]
+        ['0 to 0.451524 s: floor open', '0.451524 to 1 s: floor closed']
+        """
+        return phases_of(self.transitions, self.system._groups, float(self.t[-1]) if len(self.t) else self.t_span[0])
+
+    @property
+    def impacts(self) -> np.ndarray:
+        """Impacts in order of time, (k,): structured, with `t` in s, `name`, `impulse` in N s (N m s) and `energy_lost` in J."""
+        return impacts_of(self.transitions, self.system._groups)
 
     @classmethod
     def _of_run(cls, others: Callable[[], dict[str, Any]], **values: Any) -> Solution:

@@ -14,9 +14,9 @@ from ..base import MESSAGE_SIZE, cards, doubles, error_of, text
 from ..systems import CoreSystem
 from . import plane, space
 
-SECTIONS = ("gravity", "bodies", "joints", "quantities", "terms", "relations", "forces", "measures", "laws", "instructions",
-            "results", "numbers", "splines", "knots", "start", "outputs", "inputs", "settings", "methods", "names", "parameters",
-            "effects", "products", "events", "actions", "texts")
+SECTIONS = ("gravity", "bodies", "joints", "quantities", "terms", "relations", "forces", "measures", "groups", "laws",
+            "instructions", "results", "numbers", "splines", "knots", "start", "outputs", "inputs", "settings", "methods",
+            "names", "parameters", "effects", "products", "events", "actions", "texts")
 VERSION = lib.ZD_BLOCK_VERSION
 # by the names of operations in `symbolics.graph.lowering`, and of functions
 OPERATIONS = {"+": lib.ZD_CODE_PLUS, "-": lib.ZD_CODE_MINUS, "*": lib.ZD_CODE_TIMES, "/": lib.ZD_CODE_OVER,
@@ -58,7 +58,8 @@ def tables(written: plane.Tables | space.Tables, texts: Texts) -> dict[str, list
     packed, _words = core.written_tables(written)
     elements = packed["elements"]
     arrays = {"bodies": packed["body"], "joints": packed["joint"], "quantities": packed["quantity"], "terms": elements["term"],
-              "relations": elements["relation"], "forces": elements["force"], "measures": elements["measure"]}
+              "relations": elements["relation"], "forces": elements["force"], "measures": elements["measure"],
+              "groups": elements["group"]}
     found = {name: [number for entry in array for number in _numbers(entry, texts)] for name, array in arrays.items()}
     return {"gravity": [*(float(each) for each in packed["gravity"]), elements["length"]], **found}
 
@@ -121,7 +122,7 @@ def assembled(dimension: int, sections: Mapping[str, Sequence[float]], counts: M
 def of_joints(written: plane.Tables | space.Tables, names: Sequence[str]) -> bytes:
     """Block of bodies and joints alone; `names` are theirs, in this order."""
     texts = Texts()
-    sections = tables(written._replace(quantities=[], relations=[], forces=[], measures=[]), texts)
+    sections = tables(written._replace(quantities=[], relations=[], forces=[], measures=[], groups=[]), texts)
     counts = {"bodies": len(written.bodies), "joints": len(written.joints)}
     dimension = 3 if isinstance(written, space.Tables) else 2
     return assembled(dimension, sections | {"names": [texts.offset(name) for name in names]}, counts, texts)

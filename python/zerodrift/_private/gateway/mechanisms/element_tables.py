@@ -26,6 +26,8 @@ ZERO: Any = 0.0
 MAX_READS = lib.ZD_MAX_READS    # components that a formula reads, at most
 FORCE_KINDS = {"spring": lib.ZD_FORCE_SPRING, "constant": lib.ZD_FORCE_CONSTANT, "law": lib.ZD_FORCE_LAW,
                "separation": lib.ZD_FORCE_SEPARATION}
+GROUP_KINDS = {"two-sided": lib.ZD_TWO_SIDED, "absent": lib.ZD_TWO_SIDED,
+               "one-sided": lib.ZD_ONE_SIDED, "friction": lib.ZD_FRICTION}
 OUTPUT_KINDS = {
     "values": lib.ZD_VALUES, "rates": lib.ZD_RATES, "accelerations": lib.ZD_ACCELERATIONS, "joint force": lib.ZD_JOINT_FORCE,
     "joint torque": lib.ZD_JOINT_TORQUE, "joint tension": lib.ZD_JOINT_TENSION, "force value": lib.ZD_FORCE_VALUE,
@@ -114,6 +116,37 @@ class OutputSpec(NamedTuple):
         return 2 * dimension - 3 if self.kind.endswith(("torque", "torque sum", "momentum")) else 1
 
 
+class Group(NamedTuple):
+    """A `zd_element_group`: constraints that are switched together; `kind` is a key of GROUP_KINDS."""
+
+    name: str
+    owner: str                  # "joint" or "relation"
+    number: int
+    component: int
+    rows: int
+    kind: str
+    sign: int = 1
+    is_active: bool = False
+    normal: int = 0             # 1 + index of the group of one side that bounds the friction
+    loads: tuple[float, ...] = ()       # factors of the multipliers of first rows of the joint `load`, which bound it otherwise
+    load: int = 0
+    is_largest: bool = False    # True: by the largest of them, not by their norm
+    scale: float = 0.0          # unit of the value, 1 of an angle; 0: the characteristic length
+    value: float = 0.0
+    restitution: float = 0.0
+    friction: tuple[float, float] = (0.0, 0.0)
+
+
+def _written_groups(tables: Any) -> tuple[Any, Any]:
+    """A `zd_element_group *`, and what must live as long as it."""
+    names = [ffi.new("char[]", group.name.encode()) for group in tables.groups]
+    return ffi.new("zd_element_group[]", [
+        (name, lib.ZD_OF_JOINT if group.owner == "joint" else lib.ZD_OF_RELATION, group.number, group.component,
+         group.rows, GROUP_KINDS[group.kind], group.sign, group.is_active, group.normal, group.load, 0, len(group.loads),
+         (*group.loads, 0.0, 0.0, 0.0)[:3], group.is_largest, group.scale, group.value, group.restitution, group.friction)
+        for name, group in zip(names, tables.groups, strict=True)]), names
+
+
 def component_places(measures: Iterable[OutputSpec], dimension: int) -> dict[str, tuple[int, int]]:
     """Index and component of each scalar measure, and of each component of a vector, by name."""
     found: dict[str, tuple[int, int]] = {}
@@ -190,13 +223,14 @@ def written_elements(tables: Any, has_laws: bool, laws_know_time: bool) -> tuple
         terms += (_place(each.name, read, places) for read in each.reads)
         terms += zip(each.terms, each.coefficients, strict=True)
     reading, kept = _reading(tables)
+    groups, of_groups = _written_groups(tables)
     elements = {
         "reading": reading, "terms": len(terms), "relations": len(relations), "forces": len(forces), "measures": len(measures),
         "term": ffi.new("zd_quantity_term[]", terms), "relation": ffi.new("zd_relation[]", relations),
         "force": ffi.new("zd_generalized_force[]", forces), "measure": ffi.new("zd_output_spec[]", measures),
         "law": lib.zd_law_in_python if has_laws else ffi.NULL, "length": tables.length,
-        "laws_know_time": has_laws and laws_know_time}
-    return elements, (names, units, kept)
+        "laws_know_time": has_laws and laws_know_time, "groups": len(groups), "group": groups}
+    return elements, (names, units, kept, groups, of_groups)
 
 
 def element_kinds(count: int, kind_of: Any, quantities: Any) -> dict[str, ElementKind]:

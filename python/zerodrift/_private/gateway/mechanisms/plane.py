@@ -14,7 +14,7 @@ from ..base import Card, card_of, doubles, text
 from ..measures import given
 from . import element_tables
 from .core import MechanismCore
-from .element_tables import ZERO, GeneralizedForce, OutputSpec, Relation, Scalar
+from .element_tables import ZERO, GeneralizedForce, Group, OutputSpec, Relation, Scalar
 
 QUANTITY_KINDS = {"x": lib.ZD_PLANE_X, "y": lib.ZD_PLANE_Y, "angle": lib.ZD_PLANE_ANGLE, "along": lib.ZD_PLANE_ALONG,
                   "across": lib.ZD_PLANE_ACROSS, "distance": lib.ZD_PLANE_DISTANCE, "glide": lib.ZD_PLANE_GLIDE,
@@ -100,6 +100,7 @@ class Tables(NamedTuple):
     gravity: tuple[float, float] = (0.0, 0.0)
     reactions: Mapping[str, tuple[int, int]] = MappingProxyType({})     # measure and component of those that laws read
     length: float = 1.0         # m: that moments are divided by in the least reactions
+    groups: Sequence[Group] = ()
 
 
 class Coordinate(NamedTuple):

@@ -13,7 +13,7 @@ from ...core import ffi, lib
 from ..base import Card, card_of, doubles, text
 from . import element_tables
 from .core import MechanismCore
-from .element_tables import ZERO, GeneralizedForce, OutputSpec, Relation, Scalar, Triple, three
+from .element_tables import ZERO, GeneralizedForce, Group, OutputSpec, Relation, Scalar, Triple, three
 from .law_owner import Law
 from .plane import Coordinate
 
@@ -111,6 +111,7 @@ class Tables(NamedTuple):
     gravity: Vector = NONE
     reactions: Mapping[str, tuple[int, int]] = MappingProxyType({})     # measure and component of those that laws read
     length: float = 1.0         # m: that moments are divided by in the least reactions
+    groups: Sequence[Group] = ()
 
 
 def _joint_kind(number: int) -> JointKind:

@@ -1,0 +1,225 @@
+"""Methods of `Mechanism` for contacts and stops."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..._private import checks
+from ..._private.types import Expression, MeasureLike
+from ...errors import WrongType, WrongValue
+from ..elements.bodies import Body, Line, Point
+from ..elements.contacts import Contact, Latch, Stop
+from ..elements.immutable import amend
+from ..elements.joints import Joint
+from ..elements.measures import Measure, name_of
+from ..elements.switches import Switched
+from ..equations.measure_names import checked_reading
+from .registry import Elements
+
+if TYPE_CHECKING:
+    from ...runs.arguments.events import Event
+
+Friction = float | tuple[float, float]
+
+
+class ContactVerbs(Elements):
+    """Constraints of one side."""
+
+    def contact(self, name: str, first: Body | Point | str, shape: Line, *, radius: float = 0.0, restitution: float = 0.0,
+                friction: Friction = 0.0) -> Contact:
+        """Let a point or a round body touch a line: it may rest on it, slide, stick, lift off and bounce.
+
+        Parameters
+        ----------
+        name : str
+        first : Point, Body or name
+            The point that touches, or with `radius` the centre of the round body.
+        shape : Line
+            Line of a body by `Body.line`, free on its left side.
+        radius : float
+            Radius of the round body, in m.
+        restitution : float
+            Coefficient of restitution, 0 to 1.
+        friction : float or (float, float)
+            Coefficient of friction; or those of static and of sliding friction.
+
+        Returns
+        -------
+        Contact
+            Its `force` acts on `first`, friction included, in the drawing's axes.
+
+        Raises
+        ------
+        ValueError, TypeError
+            For a wrong argument; a start that penetrates is an error of the run.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("ball", gravity=(0, -9.81))
+        >>> ball = m.particle("ball", 1.0, at=(0, 1))
+        >>> m.contact("floor", ball, m.ground.line((0, 0), (1, 0)), restitution=0.8).force
+        VectorMeasure('floor.force')
+        """
+        self._in_the_plane("contact")
+        name = self._new_name(name, "contact")
+        if not isinstance(shape, Line):
+            raise WrongType(f"shape of {name!r} must be a line of a body, body.line(a, b), not {checks.shown(shape)}")
+        radius = checks.number(f"radius of {name!r}", radius, least=0)
+        given = self._named("first", first)
+        point = given.point((0.0, 0.0)) if isinstance(given, Body) and given.turns else self._point("first", given)
+        line = shape.body.point(shape.start)
+        one, other = self._different(name, line, point)
+        self._turning(name, "line of", one.body)
+        if radius or any(_friction(name, friction)):
+            self._turning(name, "friction or radius of", *(body for body in (other.body,) if radius))
+        normal = np.array([-shape.direction[1], shape.direction[0]])
+        return self._add(Contact(name, one, other, radius, normal, _restitution(name, restitution), _friction(name, friction)))
+
+    def stop(self, name: str, measure: Measure | str, *, lower: float | None = None, upper: float | None = None,
+             restitution: float = 0.0) -> Stop:
+        """Keep a measure of positions within limits.
+
+        Parameters
+        ----------
+        name : str
+        measure : Measure or name
+            Scalar measure of positions: an angle, a displacement, a length, a coordinate of a point.
+        lower, upper : float, optional
+            Limits, in the unit of the measure; at least one.
+        restitution : float
+            Coefficient of restitution, 0 to 1.
+
+        Returns
+        -------
+        Stop
+            Its `force`, or its `torque` if the measure is an angle, acts on the measure and is positive upward.
+
+        Raises
+        ------
+        ValueError, TypeError
+            For a wrong argument; a start beyond a limit is an error of the run.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("buffer")
+        >>> block = m.body("block", 1.0, 0.1)
+        >>> slide = m.prismatic("slide", m.ground, block, axis=(1, 0))
+        >>> m.stop("wall", slide.displacement, upper=0.12, restitution=0.4)
+        <stop wall: slide.displacement>
+        """
+        name = self._new_name(name, "stop")
+        of = name_of(measure, f"measure of {name!r}")
+        read = checked_reading(f"measure of stop {name!r}", of, 0.0, self._elements)
+        if read.is_rate:
+            raise WrongValue(f"measure of stop {name!r} must be one of positions, and {of!r} is a rate", "wrong-measure")
+        lower, upper = (None if value is None else checks.number(f"{word} of {name!r}", value)
+                        for word, value in (("lower", lower), ("upper", upper)))
+        if lower is None and upper is None:
+            raise WrongType(f"stop {name!r} needs lower=, upper= or both", "missing-argument")
+        if lower is not None and upper is not None and not lower < upper:
+            raise WrongValue(f"lower of {name!r} must be less than upper, and {lower:g} is not less than {upper:g}",
+                             "out-of-range")
+        effort = "torque" if "ang" in of.rpartition(".")[2] else "force"
+        return self._add(Stop(name, of, lower, upper, _restitution(name, restitution), effort))
+
+
+    def latch(self, name: str, joint: Joint | str, *, when: MeasureLike | Expression | Event, until: Any = None) -> Latch:
+        """Join a joint at an event, and let it go at another.
+
+        Parameters
+        ----------
+        name : str
+        joint : Joint or name
+            Made with ``active=``. It joins as the bodies stand, with a plastic impact (25b), which `Solution.impacts` has.
+        when, until : measure, text, SymPy expression or Event
+            Quantities: the joint joins when the first passes through zero upward, and lets go when the second does. In text,
+            the longest name of a measure at a place counts; numbers, + - * / and brackets.
+
+        Returns
+        -------
+        Latch
+
+        Raises
+        ------
+        ValueError, TypeError
+            For a joint without ``active=``; a text that is not an expression is an error of the run.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("wheel")
+        >>> wheel = m.body("wheel", 1.0, 0.1)
+        >>> axle = m.revolute("axle", m.ground, wheel, at=(0, 0))
+        >>> pawl = m.weld("pawl", m.ground, wheel, at=(0, 0), active=False)
+        >>> m.latch("catch", pawl, when="axle.angle - 0.5")
+        <latch catch: pawl>
+        >>> m.start({wheel.angular_velocity: 1.0})
+        >>> sol = zd.simulate(m, 1.0)
+        >>> [float(round(each, 9)) for each in (sol.impacts["t"][0], sol[axle.angle][-1], sol.impacts["energy_lost"][0])]
+        [0.5, 0.5, 0.05]
+        """
+        name = self._new_name(name, "latch")
+        joint = self._named(f"joint of {name!r}", joint)
+        if not isinstance(joint, Joint) or joint.switched is None or joint.switched.active is None:
+            raise WrongValue(f"joint of latch {name!r} must be one that was made with active=True or active=False",
+                             "wrong-element")
+        when, until = (given.name if isinstance(given, Measure) else given for given in (when, until))
+        return self._add(Latch(name, joint.name, when, until))
+
+
+# Arguments of joints that switch: kinds of joints that take them, all if there are none; and their type.
+BOUND = "float | tuple[float, float] | None"
+SWITCHED: dict[str, tuple[tuple[str, ...], str]] = {
+    "friction_torque": (("revolute",), BOUND), "friction_force": (("prismatic",), BOUND),
+    "friction": (("revolute", "prismatic"), BOUND), "radius": (("revolute",), "float | None"),
+    "guide": (("prismatic",), "float | None"), "active": ((), "bool | None")}
+
+
+def with_switches(m: Elements, joint: Joint, given: Mapping[str, Any]) -> Joint:
+    """The joint with dry friction, or one that may let go and join, by the arguments of its verb."""
+    if not given:
+        return joint
+    name = joint.name
+    values: dict[str, Any] = {}
+    if "active" in given:
+        values["active"] = checks.instance(f"active of {name!r}", given["active"], bool, "True or False")
+    for word in ("friction_torque", "friction_force", "friction"):
+        if word in given:
+            if joint.dimension == 3 and word == "friction":
+                raise WrongValue(f"friction of {name!r} by its load is for mechanisms in the plane", "not-available")
+            values["friction" if word == "friction" else "bounds"] = _friction(name, given[word], word)
+    if len({"bounds", "friction"} & values.keys()) > 1:
+        raise WrongType(f"friction of {name!r} must be given by its load or by bounds, not both", "conflicting-arguments")
+    if ("radius" in given or "guide" in given or joint.coordinate == "angle") and ("radius" in given) != (
+            "friction" in values and joint.coordinate == "angle"):
+        raise WrongType(f"friction of {name!r} goes with radius=, that of the pin", "missing-argument")
+    values |= {word: checks.number(f"{word} of {name!r}", given[word], above=0) for word in ("radius", "guide") if word in given}
+    joint._switched = Switched(**values)
+    if joint._switched.needs_rows:
+        amend(joint, cut=True)
+    return joint
+
+
+def _restitution(name: str, given: Any) -> float:
+    value = checks.number(f"restitution of {name!r}", given, least=0)
+    if value > 1:
+        raise WrongValue(f"restitution of {name!r} must be at most 1, not {value:g}", "out-of-range")
+    return value
+
+
+def _friction(name: str, given: Any, what: str = "friction") -> tuple[float, float]:
+    """Static and sliding friction, from one number or two."""
+    values: Any = (given, given) if np.ndim(given) == 0 else given
+    if len(values) != 2:
+        raise WrongValue(f"{what} of {name!r} must be a number, or those of static and of sliding friction, not {given!r}",
+                         "shape")
+    static, sliding = (checks.number(f"{what} of {name!r}", value, least=0) for value in values)
+    if sliding > static:
+        raise WrongValue(f"sliding {what} of {name!r} must be at most the static one, and {sliding:g} is more than {static:g}",
+                         "out-of-range")
+    return static, sliding
