@@ -32,14 +32,15 @@ def first_word(data, section, width):
 
 
 WIDTHS = {"gravity": 1, "bodies": 4, "joints": 13, "quantities": 10, "terms": 2, "relations": 7, "forces": 9, "measures": 7,
+          "groups": 20,
           "laws": 7, "instructions": 4, "results": 1, "numbers": 1, "splines": 2, "knots": 5, "start": 1, "outputs": 1}
 
 
 @pytest.mark.parametrize(("spoilt", "sentence"), [
     (lambda data: data[:-1], "words of 8 bytes"),
-    (lambda data: data[:80], "at least 30 words"),
+    (lambda data: data[:80], "at least 31 words"),
     (lambda data: b"ZDBLOCK\0" + data[8:], 'must begin with "zdblock"'),
-    (lambda data: with_word(data, 1, 1.0), "version of the block must be 4, not 1"),
+    (lambda data: with_word(data, 1, 1.0), "version of the block must be 5, not 1"),
     (lambda data: data[:-8], "must have the .* words that its header counts"),
     (lambda data: with_word(data, 3, 4.0), "dimension of the block must be 2 or 3"),
     (lambda data: with_word(data, 5, 1e6), "number of bodies of the block must fit"),

@@ -101,7 +101,8 @@ def inputs(*initial, name="torque", kind=lib.ZD_EFFORT):
 
 def groups(*rows, name="lock", **changed):
     return lambda made: made.array("zd_group", [
-        {"name": made.text(name), "first": first, "rows": count, "is_active": 1} | changed for first, count in rows])
+        {"name": made.text(name), "first": first, "rows": count, "is_active": 1, "kind": lib.ZD_TWO_SIDED} | changed
+        for first, count in rows])
 
 
 def brought(kind, member, **changed):
@@ -125,7 +126,7 @@ FITTING = {
     "measures": {"measures": measures({}, {"size": 3, "depends": 2})},
     "residuals": {"residuals": brought("zd_residuals", "evaluate", scratch=5)},
     "inputs": {"inputs": 2, "input": inputs(0.0, 3.0)},
-    "groups": {"groups": 2, "group": groups((0, 1), (2, 2))},
+    "groups": {"groups": 2, "group": groups((0, 1), (1, 2))},
     "quaternions": quaternions(2),
 }
 
@@ -205,10 +206,13 @@ def in_structure(**changed):
     ({"groups": 65, "group": groups((0, 1))}, "groups: there must be 0 to 64, .*, not 65"),
     ({"groups": 1}, "groups: there must be 0 to 64, .*, not 1"),
     ({"groups": 1, "group": groups((0, 1), name="")}, "group 0 must have a name"),
-    ({"groups": 1, "group": groups((2, 3))}, "lock must have at least one of the 4 rows, .*, not 3 rows from row 2 on"),
-    ({"groups": 1, "group": groups((0, 1), is_active=0)}, "lock must be active and two-sided"),
-    ({"groups": 1, "group": groups((0, 1), kind=lib.ZD_ONE_SIDED)}, "lock must be active and two-sided"),
-    ({"groups": 2, "group": groups((0, 2), (1, 1))}, "lock must have .*, not 1 rows from row 1 on"),
+    ({"groups": 1, "group": groups((2, 3))}, "lock must have rows among the 4, .*, not 3 rows from row 2 on"),
+    ({"groups": 1, "group": groups((2, 2))}, "lock must have rows of one kind, holonomic or not"),
+    ({"groups": 1, "group": groups((0, 1), kind=lib.ZD_ONE_SIDED)}, "lock must have a holonomic row, and a sign of 1 or -1"),
+    ({"groups": 1, "group": groups((0, 1), kind=lib.ZD_ONE_SIDED, sign=1, restitution=2.0)}, "restitution of lock must be"),
+    ({"groups": 1, "group": groups((0, 1), kind=lib.ZD_FRICTION, friction=(1, 2))}, "friction of lock must not be negative"),
+    ({"groups": 1, "group": groups((0, 1), kind=lib.ZD_FRICTION, normal=1)}, "the normal of lock must be a one-sided group"),
+    ({"groups": 1, "group": groups((0, 1), kind=lib.ZD_FRICTION, loads=2, load=3)}, "the load of lock must be multipliers"),
     ({"quaternions": 1}, "quaternions: there must be 0 to 1, each with its first coordinate, not 1"),
     ({"quaternions": -1}, "quaternions: there must be .*, not -1"),
     ({"quaternions": 2, "quaternion": listed("int", 0, 2)}, "quaternions: there must be 0 to 1, .*, not 2"),
@@ -250,7 +254,7 @@ def test_a_library_that_describes_what_does_not_fit_is_refused(tmp_path):
 def test_a_library_of_an_earlier_version_must_be_compiled_again(tmp_path):
     text = PENDULUM.read_text().replace("ZD_INTERFACE_VERSION;", "3;")
     library = compile_text(text, tmp_path / "earlier.so")
-    with refused("compiled-function", r"earlier\.so is 3, and this core has version 9 of the interface: compile it again"):
+    with refused("compiled-function", r"earlier\.so is 3, and this core has version 10 of the interface: compile it again"):
         zd.native(library, ["x", "y"], symbol="pendulum", **GIVEN)
 
 

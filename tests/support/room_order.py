@@ -7,7 +7,7 @@ ORDER = (
     ("linalg/sparse",),
     ("point",),
     ("point/sparse",),
-    ("constraints",),
+    ("constraints", "contact"),
     ("formulations/sparse", "step_limits"),
     ("formulations",),
     ("motion",),
