@@ -58,7 +58,7 @@ def test_a_stale_core_is_noticed(tree, change):
     ("zerodrift/settings.h", "ZD_STOP, ZD_CONTINUE", "ZD_CONTINUE, ZD_STOP", True),
     ("linalg/row_space.c", "columns * rows", "2 * columns * rows", True),
     ("constraints/rank_monitor.c", ".weight = zd_arena_doubles(arena, m),", ".weight = zd_arena_doubles(arena, 2 * m),", True),
-    ("run/create.c", "    zd_reactions_create(motion, arena);\n", "", True),
+    ("run/open.c", "    zd_reactions_create(motion, arena);\n", "", True),
 ], ids=["function", "constant", "structure", "comment", "enumeration", "memory", "memory of a part", "order of memory"])
 def test_layouts_of_runs_are_of_structures_enumerations_and_memory(tree, name, old, new, is_another):
     path, before = tree / "csrc" / name, layout_fingerprint(tree)

@@ -375,7 +375,7 @@ def test_pictures_of_modes_and_root_loci():
     assert ax.get_xlabel() == "real part [1/s]"
     bar = zd.models.four_bar()
     ax = zd.plot.mode(zd.linearize(bar, zd.equilibrium(bar)), 0, amplitude=0.1)
-    assert len(ax.lines) == 2       # at both ends; between them it covers the position of reference
+    assert len(ax.lines) == 3       # both extremes, and the rest position
     with refused("out-of-range", "index.*of 2"):
         zd.plot.mode(zd.linearize(bar, zd.equilibrium(bar)), 2)
     assert zd.plot.mode(lins[1], 1).lines

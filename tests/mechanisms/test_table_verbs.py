@@ -13,8 +13,9 @@ from zerodrift.mechanisms.building.table_verbs import BY_HAND, JOINTS, TableVerb
 from zerodrift.mechanisms.elements import joints, space_joints
 
 SIGNATURES = {      # those that scripts rely on: keyword arguments, with their defaults
-    "revolute": {"axis": None, "at": None, "damping": 0.0, "cut": False},
-    "prismatic": {"axis": ..., "at": None, "damping": 0.0, "cut": False},
+    "revolute": {"axis": None, "at": None, "damping": 0.0, "cut": False, "friction_torque": None, "friction": None,
+                 "radius": None},
+    "prismatic": {"axis": ..., "at": None, "damping": 0.0, "cut": False, "friction_force": None, "friction": None, "guide": None},
     "weld": {"at": None, "cut": False},
     "rod": {"length": None},
     "spherical": {"at": None, "damping": 0.0, "cut": False},
@@ -39,7 +40,8 @@ def test_its_arguments_are_those_that_scripts_rely_on(kind):
     parameters = inspect.signature(getattr(zd.Mechanism, kind)).parameters
     assert [*parameters][:4] == ["self", "name", *(["point", "along"] if kind == "knife_edge" else ["first", "second"])]
     given = {name: each.default for name, each in parameters.items() if each.kind is each.KEYWORD_ONLY}
-    assert {name: ... if value is inspect.Parameter.empty else value for name, value in given.items()} == SIGNATURES[kind]
+    assert {name: ... if value is inspect.Parameter.empty else value for name, value in given.items()} == {
+        **SIGNATURES[kind], "active": None}
 
 
 @pytest.mark.parametrize("kind", JOINTS)

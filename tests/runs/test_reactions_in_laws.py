@@ -177,7 +177,7 @@ def test_a_law_in_space_and_of_an_acceleration():
 
 
 def test_a_typing_error_and_a_vector_are_refused_when_a_run_begins():
-    with pytest.raises(ValueError, match=r"user functions must depend on scalar measures, and 'pin.tension' is none"):
+    with pytest.raises(ValueError, match=r"user functions must depend on scalar measures, and 'pin.tension' is not one"):
         zd.simulate(arm(torque=sp.Symbol("pin.tension")), 1.0, step=0.01)
     with pytest.raises(ValueError, match=r"must depend on scalar measures, and 'pin.force' is not one"):
         arm(torque=sp.Symbol("pin.force"))

@@ -106,7 +106,7 @@ def changed(one: Reading, other: Reading, turned: np.ndarray) -> str:
     change: dict[bool, dict[str, float]] = {False: {}, True: {}}
     largest = 0.0
     for name in one.system._names_of_measures():
-        if name.endswith(ACTIONS):
+        if name.endswith(ACTIONS) and not name.startswith("ground."):     # which is the sum of the others
             before, after = np.atleast_1d(one[name]), np.atleast_1d(other[name])
             R = turned[:before.size, :before.size] if before.size == drawing.dimension else np.eye(before.size)
             change[name.rpartition(".")[0] in joints][name] = float(np.abs(after - R @ before).max())

@@ -27,7 +27,15 @@ WORDS = {
     "pitch": ("float", "Advance of the second body along the axis per turn, in m; positive for a right-handed screw."),
     "length": ("float", "In m, above 0{left_out}."),
     "damping": ("float", "Damping of its {coordinate}, in {unit}, at least 0."),
-    "cut": ("bool", "True if this joint must close a loop; left out, the joint that closes a loop is chosen.")}
+    "cut": ("bool", "True if this joint must close a loop; left out, the joint that closes a loop is chosen."),
+    "friction_torque": ("float or (float, float), optional", "Bound of dry friction, or the static and the sliding one, in N m."),
+    "friction_force": ("float or (float, float), optional", "Bound of dry friction, or the static and the sliding one, in N."),
+    "friction": ("float or (float, float), optional", "In the plane: its coefficients instead, of the load that the joint bears; "
+                 "the joint is then constraints, not a coordinate."),
+    "radius": ("float, optional", "Radius of the pin in m, on which `friction` acts: its torque is at most mu r |F|."),
+    "guide": ("float, optional", "Length of the guide in m: friction is at most mu max(|F|, 2 |M| / l)."),
+    "active": ("bool, optional", "True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and "
+               "``Event(then=)``, and is joined at the start or not; it is constraints then, not a coordinate.")}
 EXAMPLES = {"axis": ("(1, 0)", "(1, 0, 0)"), "along": ("(1, 0)", "(1, 0, 0)"), "axes": ("", "((1, 0, 0), (0, 1, 0))"),
             "normal": ("", "(0, 0, 1)"), "pitch": ("", "0.002"), "length": ("0.5", "0.5")}       # in the plane, in space
 

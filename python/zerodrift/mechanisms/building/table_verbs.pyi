@@ -130,6 +130,16 @@ class TableVerbs(Elements):
             Damping of its angle, in N m s, at least 0.
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
+        friction_torque : float or (float, float), optional
+            Bound of dry friction, or the static and the sliding one, in N m.
+        friction : float or (float, float), optional
+            In the plane: its coefficients instead, of the load that the joint bears; the joint is then constraints, not a
+            coordinate.
+        radius : float, optional
+            Radius of the pin in m, on which `friction` acts: its torque is at most mu r |F|.
+        active : bool, optional
+            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
+            joined at the start or not; it is constraints then, not a coordinate.
 
         Returns
         -------
@@ -174,6 +184,16 @@ class TableVerbs(Elements):
             Damping of its displacement, in N s/m, at least 0.
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
+        friction_force : float or (float, float), optional
+            Bound of dry friction, or the static and the sliding one, in N.
+        friction : float or (float, float), optional
+            In the plane: its coefficients instead, of the load that the joint bears; the joint is then constraints, not a
+            coordinate.
+        guide : float, optional
+            Length of the guide in m: friction is at most mu max(|F|, 2 |M| / l).
+        active : bool, optional
+            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
+            joined at the start or not; it is constraints then, not a coordinate.
 
         Returns
         -------
@@ -212,6 +232,9 @@ class TableVerbs(Elements):
             Position of the joint in the drawing, in m.
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
+        active : bool, optional
+            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
+            joined at the start or not; it is constraints then, not a coordinate.
 
         Returns
         -------
@@ -245,6 +268,9 @@ class TableVerbs(Elements):
         first, second : Point, Particle or name
         length : float
             In m, above 0; left out: as drawn.
+        active : bool, optional
+            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
+            joined at the start or not; it is constraints then, not a coordinate.
 
         Returns
         -------
@@ -284,6 +310,9 @@ class TableVerbs(Elements):
             Position of the joint in the drawing, in m. Left out for two bodies, it is the second's origin.
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
+        active : bool, optional
+            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
+            joined at the start or not; it is constraints then, not a coordinate.
 
         Returns
         -------
@@ -324,6 +353,9 @@ class TableVerbs(Elements):
             In space a direction in the drawing, made perpendicular to `along`; left out: against gravity, or z without gravity.
             The velocity of the point along ``cross(normal, along)`` is zero. This direction turns with the body: a body that
             leans takes it along. The joint does not keep the point on a plane.
+        active : bool, optional
+            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
+            joined at the start or not; it is constraints then, not a coordinate.
 
         Returns
         -------
@@ -363,6 +395,9 @@ class TableVerbs(Elements):
             Position of the joint in the drawing, in m. Left out for two bodies, it is the second's origin.
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
+        active : bool, optional
+            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
+            joined at the start or not; it is constraints then, not a coordinate.
 
         Returns
         -------
@@ -403,6 +438,9 @@ class TableVerbs(Elements):
             Position of the joint in the drawing, in m. Left out for two bodies, it is the second's origin.
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
+        active : bool, optional
+            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
+            joined at the start or not; it is constraints then, not a coordinate.
 
         Returns
         -------
@@ -445,6 +483,9 @@ class TableVerbs(Elements):
             Position of the joint in the drawing, in m. Left out for two bodies, it is the second's origin.
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
+        active : bool, optional
+            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
+            joined at the start or not; it is constraints then, not a coordinate.
 
         Returns
         -------
@@ -485,6 +526,9 @@ class TableVerbs(Elements):
             Damping of its relative angular velocity, in N m s, at least 0.
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
+        active : bool, optional
+            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
+            joined at the start or not; it is constraints then, not a coordinate.
 
         Returns
         -------
@@ -527,6 +571,9 @@ class TableVerbs(Elements):
             Damping of its relative angular velocity, in N m s, at least 0.
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
+        active : bool, optional
+            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
+            joined at the start or not; it is constraints then, not a coordinate.
 
         Returns
         -------

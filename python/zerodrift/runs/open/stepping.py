@@ -216,7 +216,8 @@ class Stepping(Present):
         known = switches_of(self._ready.of)
         checks.choice("name", getattr(name, "name", name), known)
         if status := self._core.switch(gateway.SWITCHES - known[getattr(name, "name", name)], how):
-            raise self._core.error(status)
+            error = self._core.error(status)
+            raise error
         self._core.note_jump("")
 
     def _note_jump(self) -> None:

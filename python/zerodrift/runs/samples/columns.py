@@ -159,7 +159,7 @@ def to_frame(self: Any, names: Names | None = None, *, display: Display | None =
     --------
     >>> import zerodrift as zd
     >>> sol = zd.simulate(zd.models.slider_crank(), 0.1, step=0.01)
-    >>> list(sol.to_frame("crank.angle", display={"angle": "deg", "time": "ms"}))
+    >>> list(sol.to_frame("crank.angle", display={"angle": "deg", "time": "ms"}))       # doctest: +SKIP
     ['crank.angle [deg]']
     """
     pandas = imported("pandas", "to_frame", "excel")
