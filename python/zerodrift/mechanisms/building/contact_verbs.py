@@ -158,7 +158,7 @@ class ContactVerbs(Elements):
         >>> pawl = m.weld("pawl", m.ground, wheel, at=(0, 0), active=False)
         >>> m.latch("catch", pawl, when="axle.angle - 0.5")
         <latch catch: pawl>
-        >>> m.start({wheel.angular_velocity: 1.0})
+        >>> m.start({"wheel.angular_velocity": 1.0})
         >>> sol = zd.simulate(m, 1.0)
         >>> [float(round(each, 9)) for each in (sol.impacts["t"][0], sol[axle.angle][-1], sol.impacts["energy_lost"][0])]
         [0.5, 0.5, 0.05]
