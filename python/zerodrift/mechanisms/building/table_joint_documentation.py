@@ -32,8 +32,8 @@ WORDS = {
     "friction_force": ("float or (float, float), optional", "Bound of dry friction, or the static and the sliding one, in N."),
     "friction": ("float or (float, float), optional", "In the plane: its coefficients instead, of the load that the joint bears; "
                  "the joint is then constraints, not a coordinate."),
-    "radius": ("float, optional", "Radius of the pin in m, on which `friction` acts: its torque is at most mu r |F|."),
-    "guide": ("float, optional", "Length of the guide in m: friction is at most mu max(|F|, 2 |M| / l)."),
+    "radius": ("float, optional", "Radius of the pin in m, on which `friction` acts: its torque is at most ``mu r |F|``."),
+    "guide": ("float, optional", "Length of the guide in m: friction is at most ``mu max(|F|, 2 |M| / l)``."),
     "active": ("bool, optional", "True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and "
                "``Event(then=)``, and is joined at the start or not; it is constraints then, not a coordinate.")}
 EXAMPLES = {"axis": ("(1, 0)", "(1, 0, 0)"), "along": ("(1, 0)", "(1, 0, 0)"), "axes": ("", "((1, 0, 0), (0, 1, 0))"),

@@ -136,7 +136,7 @@ class TableVerbs(Elements):
             In the plane: its coefficients instead, of the load that the joint bears; the joint is then constraints, not a
             coordinate.
         radius : float, optional
-            Radius of the pin in m, on which `friction` acts: its torque is at most mu r |F|.
+            Radius of the pin in m, on which `friction` acts: its torque is at most ``mu r |F|``.
         active : bool, optional
             True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
             joined at the start or not; it is constraints then, not a coordinate.
@@ -190,7 +190,7 @@ class TableVerbs(Elements):
             In the plane: its coefficients instead, of the load that the joint bears; the joint is then constraints, not a
             coordinate.
         guide : float, optional
-            Length of the guide in m: friction is at most mu max(|F|, 2 |M| / l).
+            Length of the guide in m: friction is at most ``mu max(|F|, 2 |M| / l)``.
         active : bool, optional
             True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
             joined at the start or not; it is constraints then, not a coordinate.
