@@ -93,7 +93,7 @@ static int formula_is_right(const zd_elements *elements, const zd_output_spec *f
 static int sum_is_right(const tables *of, const zd_output_spec *sum)
 {
     const int first = sum->term, count = sum->size;
-    if (first < 0 || count < 1 || first + count > of->elements->terms || sum->index < 1) return 0;
+    if (sum->kind > ZD_INERTIA_TORQUE || first < 0 || count < 1 || first + count > of->elements->terms || sum->index < 1) return 0;
     for (const zd_quantity_term *term = of->elements->term + first; term < of->elements->term + first + count; term++)
         if (term->quantity != -1 && !zd_is_in(term->quantity, of->quantities)) return 0;
     return 1;
