@@ -11,6 +11,7 @@ from scipy.spatial import ConvexHull
 
 import zerodrift as zd
 from drawn import centres, collection, is_among, outlines, sorts
+from few_bodies import falling_box
 from zerodrift.mechanisms.elements.joints import JOINTS
 from zerodrift.mechanisms.elements.table_forces import ELEMENTS
 from zerodrift.plot import annotations, marks
@@ -393,6 +394,15 @@ def test_what_travels_far_is_drawn_by_its_own_size():
     sol = zd.simulate(m, 1.0, step=0.1)
     (bar,) = outlines(zd.plot.mechanism(sol), "link")
     assert np.ptp(bar[:, 1]) < 0.2 * cart.length
+
+
+def test_a_line_that_several_points_touch_is_drawn_once_where_it_is():
+    """Also under a body that has not yet reached it, as far as its corners are."""
+    system = falling_box().system()
+    shapes = shapes_at(system, system.p0)
+    half = 0.2 * (np.cos(0.3) + np.sin(0.3))
+    assert [each.kind for each in shapes] == ["link", "road"]
+    np.testing.assert_allclose(shapes[1].points, [(-half, 0), (half, 0), (1, 0)], atol=1e-12)
 
 
 @pytest.mark.parametrize(("radius", "extent"), [(0.2, None), (0.2, 1.0), (0.2, 0.1)])

@@ -61,3 +61,14 @@ def kicked(force, at, gravity=0.0, form=lambda law: law):
     m.spring("spring", m.ground.point((0, -1)), mass, stiffness=1e3, length=1 + gravity / 1e3, damping=20.0)
     m.force("kick", mass, along=(0, 1), value=form(lambda t: force if at < t < at + 0.02 else 0.0))
     return m
+
+
+def falling_box():
+    """A square box that falls on the ground, bounces, tips over, slides and sticks."""
+    m = zd.Mechanism("box", gravity=(0, -9.81))
+    box = m.body("box", 1.0, 0.03, at=(0, 1), angle=0.3)
+    floor = m.ground.line((0, 0), (1, 0))
+    for name, corner in {"a": (-0.2, -0.2), "b": (0.2, -0.2), "c": (0.2, 0.2), "d": (-0.2, 0.2)}.items():
+        m.contact(name, box.point(corner), floor, restitution=0.3, friction=(0.5, 0.4))
+    m.start({box.velocity: (2.0, 0.0)})
+    return m

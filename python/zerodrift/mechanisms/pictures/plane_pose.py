@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -134,6 +134,12 @@ class Posed:
         axis, now, place = self.axis(joint), self.displacement(joint), self.at(joint.second)
         low, high = ranges[joint.name]
         return np.array([place + (low - now) * axis, place + (high - now) * axis])
+
+    def line(self, joints: Sequence[Joint], ranges: dict[str, tuple[float, float]]) -> np.ndarray:
+        """Ends of the line of the first body on which these roll or which they touch, and its direction, (3, 2)."""
+        start, axis = self.at(joints[0].first), self.axis(joints[0])
+        ends = [(self.at(joint.first) - start) @ axis + end for joint in joints for end in ranges[joint.name]]
+        return np.array([start + min(ends) * axis, start + max(ends) * axis, axis])
 
 
 def at_moments(parts: Parts, moments: Iterable[np.ndarray]) -> list[Posed]:

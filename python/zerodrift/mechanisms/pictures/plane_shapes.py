@@ -6,6 +6,7 @@ Joints and force elements are drawn by their entry in the core's table: by the m
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import Any
 
 import numpy as np
 
@@ -32,8 +33,11 @@ class Sketch:
         self.couplings = Couplings(self.parts)
         self.sliding = [joint for joint in drawing.of(Joint) if slides(joint)]
         self.slotted = {joint.bodies[0].name for joint in self.sliding if has_groove(joint)}
-        self.guided = [*self.sliding, *(joint for joint in drawing.of(Joint) if joint.row.at_contact)]
-        self.has_shape = {joint.bodies[1].name for joint in self.guided} | self.couplings.wheels
+        touching = [joint for joint in drawing.of(Joint) if joint.row.at_contact]
+        self.guided = [*self.sliding, *touching]
+        self.roads = list(_by_line(touching, numbers).values())
+        self.has_shape = {joint.bodies[1].name for joint in self.sliding} | self.couplings.wheels
+        self.has_shape |= {joint.bodies[1].name for joint in touching if joint.length_with(numbers) > 0}
         self.held = _held_by_ground(self.parts)
         self.kinds = [(joint, _kind(joint), is_pinned(joint)) for joint in drawing.of(Joint)]
 
@@ -94,15 +98,16 @@ class Sketch:
         return min(radius, extent) if extent > APART else radius
 
     def _joints(self, posed: Posed, ranges: Ranges) -> Iterator[Shape]:
+        for road in self.roads:
+            yield Shape("road", posed.line(road, ranges), road[0].name)
         for joint, kind, pinned in self.kinds:
             second = posed.at(joint.second)
             if kind in ("rod", "coupled"):
                 yield Shape(kind, np.array([posed.at(joint.first), second]), joint.name)
             elif kind == "wheel":
-                axis, radius = posed.axis(joint), joint.length_with(self.parts.numbers)
-                down = radius * np.array([axis[1], -axis[0]])
-                yield Shape("road", np.array([*(posed.track(joint, ranges) + down), axis]), joint.name)
-                yield Shape("wheel", np.array([second, posed.spoke(joint)]), joint.name, radius)
+                radius = joint.length_with(self.parts.numbers)
+                if radius > 0:
+                    yield Shape("wheel", np.array([second, posed.spoke(joint)]), joint.name, radius)
             elif kind == "slider":
                 yield from _slider(joint, posed, ranges, self.couplings.lifted.get(joint.name, 0.0))
             elif kind == "blade":
@@ -126,6 +131,16 @@ def _kind(joint: Joint) -> str:
     if {"x", "y", "angle"} <= quantities(joint):
         return "weld"
     return "" if is_pinned(joint) else "coupled"
+
+
+def _by_line(joints: Iterable[Joint], numbers: Numbers) -> dict[tuple[Any, ...], list[Joint]]:
+    """Wheels and contacts on the same line of a body, by that line."""
+    found: dict[tuple[Any, ...], list[Joint]] = {}
+    for joint in joints:
+        assert joint.axis is not None
+        across = joint.first.local_with(numbers) @ np.array([-joint.axis[1], joint.axis[0]])
+        found.setdefault((joint.bodies[0].name, *np.round(np.array([*joint.axis, across]) / APART)), []).append(joint)
+    return found
 
 
 def _slider(joint: Joint, posed: Posed, ranges: Ranges, lifted: float) -> Iterator[Shape]:
