@@ -9,6 +9,7 @@ import pytest
 
 import zerodrift as zd
 from core_objects import AT_FIXED_PLACES, CC, STRICT, needs_compiler, objects_of, shared_folder
+from few_bodies import falling_box
 from support import called, refused, relay
 from written_laws import machine_of_laws
 
@@ -60,6 +61,16 @@ def test_events_act_with_the_bits_of_simulate(tmp_path, built):
     rows, _ = printed(built(folder), 5.0)
     assert len(sol.jumps) == 4
     np.testing.assert_array_equal(rows, np.column_stack([sol.t, sol["pin.angle"]]))
+
+
+@needs_compiler
+def test_contacts_have_the_bits_of_simulate(tmp_path, built):
+    names = ["box.position", "b.force"]
+    folder = zd.c_source(falling_box(), tmp_path / "box", step=1e-2, outputs=names)
+    sol = zd.simulate(falling_box(), 3.0, step=1e-2, outputs=names, vector="baseline")
+    rows, _ = printed(built(folder), 3.0)
+    assert len(sol.phases) > 20
+    np.testing.assert_array_equal(rows, np.column_stack([sol.t, *(sol[name] for name in names)]))
 
 
 @needs_compiler

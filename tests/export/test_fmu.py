@@ -10,7 +10,7 @@ import pytest
 
 import zerodrift as zd
 from core_objects import needs_compiler
-from few_bodies import two_links
+from few_bodies import falling_box, two_links
 from support import assert_close, refused, relay
 from written_laws import machine_of_laws
 from zerodrift.export import fmu_libraries
@@ -111,6 +111,17 @@ def test_recorded_functions_have_the_bits_of_simulate(tmp_path):
     unit.step(100)
     sol = zd.simulate(m, 0.1, step=STEP, outputs=names, vector="baseline", closed_form=False)
     assert [unit[name] for name in names] == [sol[name][-1] for name in names]
+    unit.close()
+
+
+def test_contacts_have_the_bits_of_simulate(tmp_path):
+    names = ["box.position.x", "box.position.y", "b.force.y"]
+    unit = Opened(zd.fmu(falling_box(), tmp_path / "box", step=STEP, outputs=["box.position", "b.force"]))
+    for _ in range(30):
+        unit.step(100)
+    run = zd.Run(falling_box(), step=STEP, vector="baseline")
+    run.step(3000)
+    assert [unit[name] for name in names] == [*run["box.position"], run["b.force"][1]]
     unit.close()
 
 

@@ -15,6 +15,7 @@ import tolerances as tol
 import zerodrift as zd
 from analysis.test_reach_of_drives import driven
 from browser import Browser, needs_chromium
+from few_bodies import falling_box
 from support import assert_close, relay
 from written_laws import machine_of_laws
 from zerodrift._private.rotations import rotation_of
@@ -106,6 +107,14 @@ def test_events_set_inputs(web):
                  it=zd.block(m, step=0.01, outputs=[], events=events))
     sol = zd.simulate(m, 5.0, step=0.01, events=events, closed_form=False, vector="baseline")
     assert found == [bits(sol.p[-1]), -1.0]
+
+
+def test_contacts_have_the_bits_of_the_native_core(web):
+    found, = web("const m = zd.create(core, block('it')); zd.advance(m, 3);"
+                 "tell([bits(zd.positions(m)), bits(zd.velocities(m)), Array.from(zd.read(m, 'b.force'))]);",
+                 it=zd.block(falling_box(), step=1e-2, outputs=["b.force"]))
+    sol = zd.simulate(falling_box(), 3.0, step=1e-2, vector="baseline")
+    assert found == [bits(sol.p[-1]), bits(sol.v[-1]), sol["b.force"][-1].tolist()]
 
 
 @needs_chromium
