@@ -24,7 +24,7 @@ static int finish(zd_run *run, int status, char *message, int size)
 static int refuse_groups(const zd_system *system, char *message, int size)
 {
     if (!system->groups) return ZD_DONE;
-    snprintf(message, size, "a single state has no phase: contacts, stops, and joints with dry friction or that let go, such as '%s', must "
+    snprintf(message, size, "a single state has no phase: contacts, stops, and joints with dry friction or active=, such as '%s', must "
              "be in a run, at whose samples accelerations and reactions are read", system->group[0].name);
     return ZD_BAD_ARGUMENT;
 }

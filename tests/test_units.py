@@ -175,8 +175,8 @@ def test_loads():
     assert main.angle == sol["crank.angle"][size.argmax()]
     assert re.search(rf"main +force +{1e-3 * main.magnitude:.6g} +kN", str(table))
     frame = table.to_frame()
-    assert list(frame) == ["joint", "quantity", "greatest", "unit", "t [ms]", "crank.angle [deg]", "unique"]
-    assert frame["greatest"][0] == pytest.approx(1e-3 * main.magnitude)
+    assert list(frame) == ["joint", "quantity", "maximum", "unit", "t [ms]", "crank.angle [deg]", "unique"]
+    assert frame["maximum"][0] == pytest.approx(1e-3 * main.magnitude)
     redundant = zd.simulate(zd.models.planetary_gear(), 0.01, step=1e-3).loads()
     assert "not unique" in str(redundant) or all(row.is_unique for row in redundant.rows)
     with refused("wrong-type", "mechanism"):

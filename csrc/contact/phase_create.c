@@ -8,7 +8,7 @@ static int is_sliding_with_load(const zd_group *group, signed char state)
     return group->kind == ZD_FRICTION && zd_slides(state) && (group->normal || group->loads);
 }
 
-/* The group for which a row is active: its index, or -1; -2 if it is not active. */
+/* Index of the group for which a row is active; -1: it is of no group; -2: it is not active. */
 static int find_group(const zd_phase_system *self, int row)
 {
     if (!self->is_switched[row]) return -1;
@@ -31,7 +31,7 @@ static void list_rows(zd_phase_system *self)
             const int g = find_group(self, row), is_friction = g >= 0 && full->group[g].kind == ZD_FRICTION;
             if (g < -1 || (row < full->mh && !is_friction) != holonomic) continue;
             self->value[m] = g >= 0 ? full->group[g].value : 0;
-            self->keeps_place[m] = g >= 0 && full->group[g].kind == ZD_TWO_SIDED;
+            self->keeps_value[m] = g >= 0 && full->group[g].kind == ZD_TWO_SIDED;
             self->row_here[row] = m;
             self->row[m++] = row;
         }
@@ -40,7 +40,7 @@ static void list_rows(zd_phase_system *self)
     self->system.mn = m - self->system.mh;
 }
 
-/* The groups of rows that the structure declares, without rows that are not active; those of a group that differ in kind come apart. */
+/* Groups of rows that the structure declares, restricted to active rows; a group is split where holonomic and nonholonomic rows meet. */
 static void declare_structure(zd_phase_system *self, int *rows, int *first, int *block)
 {
     const zd_structure *inner = self->full->structure;
@@ -74,7 +74,7 @@ static void create_structure(zd_arena *arena, zd_phase_system *self)
     if (arena->base) declare_structure(self, rows, first, block);
 }
 
-/* Functions that read the loads of what slides, after those of the full system. */
+/* Functions that read the loads of sliding friction, after those of the full system. */
 static void fill_reading(zd_phase_system *self)
 {
     const zd_system *full = self->full;
@@ -125,7 +125,7 @@ zd_phase_system *zd_phase_system_create(zd_arena *arena, const zd_system *full, 
     self->row_here = zd_arena_ints(arena, m);
     self->is_switched = zd_arena_ints(arena, m);
     self->value = zd_arena_doubles(arena, m);
-    self->keeps_place = zd_arena_ints(arena, m);
+    self->keeps_value = zd_arena_ints(arena, m);
     self->tie = zd_arena_ints(arena, groups);
     self->tie_factor = zd_arena_doubles(arena, groups);
     self->bias = zd_arena_doubles(arena, groups);

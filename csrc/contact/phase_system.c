@@ -181,7 +181,6 @@ static int measure(const void *data, const double *inputs, int index, double t, 
     return full->measures->evaluate(full->data, inputs, index, t, p, v, vdot, lambda ? all : NULL, out, scratch);
 }
 
-/* Load that bounds friction, from the multipliers (loads,) of its rows or of the normal row; 1 for a fixed bound. */
 double zd_friction_load(const zd_system *full, const zd_group *group, const double *lambda)
 {
     double square = 0, largest = 0;
@@ -194,7 +193,7 @@ double zd_friction_load(const zd_system *full, const zd_group *group, const doub
     return !group->loads ? 1 : group->is_largest ? largest : sqrt(square);
 }
 
-/* Force of friction that slides, of the load that it reads. */
+/* Force of sliding friction, from the load that it reads. */
 static int read_load(const void *data, int function, double t, const double *p, const double *v, const double *r, int is_same_state,
                      double *u, double *scratch)
 {
@@ -222,7 +221,7 @@ static void list_measures(zd_phase_system *self)
     self->system.measures = &self->measures;
 }
 
-/* Functions of the full system, called with this system as their data; what knows all of its rows is left out. */
+/* Functions of the full system, called with this system as their data; functions that need all of its rows are left out. */
 void zd_phase_pass_functions(zd_phase_system *self)
 {
     const zd_system *full = self->full;

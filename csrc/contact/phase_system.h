@@ -28,7 +28,7 @@ struct zd_phase_system {
     int *row_here;          /* (full m,): the inverse; -1: it is not active */
     int *is_switched;       /* (full m,): true if the row is of a group */
     double *value;          /* (m,): Phi of the full system at which the row is closed */
-    int *keeps_place;       /* (m,): true of rows of two-sided groups, whose value is set when they join */
+    int *keeps_value;       /* (m,): true of rows of two-sided groups, whose value is set when they join */
     const zd_layout *layout;    /* layout of the full system; NULL: it declares no structure */
     int size_of_C;          /* entries of C of the full system */
     int slidings;
@@ -51,8 +51,8 @@ struct zd_phase_system {
 
 /* The phase with the state (groups,) of each group, in memory of the arena. */
 zd_phase_system *zd_phase_system_create(zd_arena *arena, const zd_system *full, const signed char *state);
-/* all (full m,) <- multipliers of all rows at a state, from those (m,) of the phase: 0 of rows that are open; of friction that slides, those
- * that have its force. `u`: forces that read reactions; they are NULL if there are none. */
+/* all (full m,) <- multipliers of all rows at a state, from those (m,) of the phase: 0 for open rows, and for sliding friction the multiplier
+ * that equals its force. `u`: forces that read reactions; NULL without any. */
 void zd_phase_expand(const zd_phase_system *self, const double *lambda, const double *u, double *all);
 /* Number of rows of the full system of a point. */
 static inline int zd_point_constraints(const zd_point *point) { return zd_constraints(point->phase ? point->phase->full : point->system); }
@@ -70,11 +70,12 @@ double zd_phase_slip(const zd_phase_system *self, int group, const double *v);
 static inline int zd_own_measures(const zd_system *full) { return full->measures ? full->measures->count : 0; }
 /* Sets the functions of a phase whose rows are known. */
 void zd_phase_pass_functions(zd_phase_system *self);
-/* First row of the multipliers that are the load of friction, and the load from them; 1 for a fixed bound. */
+/* First row of the multipliers that are the load of friction. */
 static inline int zd_first_load(const zd_system *full, const zd_group *group)
 {
     return group->normal ? full->group[group->normal - 1].first : group->load;
 }
+/* Load that bounds friction, from the multipliers (loads,) of its rows or of the normal row; 1 for a fixed bound. */
 double zd_friction_load(const zd_system *full, const zd_group *group, const double *lambda);
 /* Bound of the friction of a group, from the multipliers of all rows; `which`: 0 static, 1 sliding. */
 double zd_friction_bound(const zd_system *full, int group, int which, const double *lambda);

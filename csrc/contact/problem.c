@@ -1,7 +1,7 @@
-/* All cases are enumerated: each row presses or is open, sticks or slides to either side. A case is a system of linear equations for the z of
- * the rows that press or stick, whose w is zero; friction that slides is its bound times -1 or 1. It is a solution if all signs are right.
- * Rows whose z is not unique, as they depend on others, are idle, with z = 0: where the others suffice. The bounds of parallel rows of
- * friction that stick together add up.
+/* All cases are enumerated: each normal row is closed or open, each friction sticks or slides to either side. A case is a system of
+ * linear equations for the z of the rows that are closed or stick, whose w is zero; sliding friction is its bound times -1 or 1. It is a
+ * solution if all signs are right. Rows whose z is not unique, as they depend on others, are idle, with z = 0. The bounds of parallel
+ * friction that sticks add up.
  */
 #include "problem.h"
 
@@ -22,7 +22,7 @@ typedef struct search {
     double *A, *x, *z, *w;
     double size;            /* largest |b| */
     int found;
-    int slip_sign;          /* 1: what slides must move; -1: it may be still, if there is no other solution */
+    int slip_sign;          /* 1: sliding friction must move; -1: it may be at rest, if no other solution exists */
 } search;
 
 size_t zd_problem_scratch(int rows) { return (size_t)rows * (rows + 1) + 4 * (size_t)rows + 4; }
@@ -47,8 +47,8 @@ static void choose_pivot(int n, double *A, double *x, int *column, int k)
     column[k] = column[pj], column[pj] = moved;
 }
 
-/* Solves A x = x, (n, n), by complete pivoting, with zero for what is not determined; 0 if the equations contradict each other. Entry k of
- * the solution belongs to `column` k; *rank: number of independent equations. */
+/* Solves A x = x, (n, n), by complete pivoting, with zero for unknowns that are not determined; 0 if the equations are inconsistent. Entry k
+ * of the solution belongs to `column` k; *rank: number of independent equations. */
 static int solve(int n, double *A, double *x, int *column, int *rank)
 {
     double contradiction = 0, size = 0;
@@ -101,7 +101,7 @@ static double total_bound(const search *it, int i)
     return sum;
 }
 
-/* z and w of the case; 0: there are none. */
+/* z and w of the case; 0: it has no solution. */
 static int solve_case(search *it)
 {
     const zd_contact_problem *of = it->of;
@@ -200,7 +200,7 @@ static void check_case(search *it)
     memcpy(of->w, it->w, of->rows * sizeof *of->w);
 }
 
-/* Completes the case from row i on in all ways. */
+/* Enumerates the states of row i and of all later ones. */
 static void complete(search *it, int i)
 {
     const zd_contact_problem *of = it->of;

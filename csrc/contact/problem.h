@@ -1,4 +1,4 @@
-/* Contacts at one instant: which of them press, stick or slide, from a small matrix. */
+/* Contacts at one instant: which of them are closed, stick or slide, from a small matrix. */
 #pragma once
 
 #include "phase_system.h"
@@ -10,14 +10,14 @@ typedef struct zd_candidate {
     int normal;             /* -1: a normal row, z >= 0, w >= 0, one of them zero. Otherwise friction: 1 + index of the normal row whose z
                              * bounds it, 0: the bound is fixed */
     double bound[2];        /* static and sliding: coefficients, or fixed bounds */
-    signed char slides;     /* ZD_OPEN: all is possible; otherwise friction slides in this state, and a normal row is open, whatever w is */
+    signed char slides;     /* ZD_OPEN: any state; otherwise friction slides in this state, and a normal row is open, whatever w is */
 } zd_candidate;
 
 typedef struct zd_contact_problem {
     int rows;
     const zd_candidate *row;    /* (rows,) normal rows before the friction that they bound */
     const double *W, *b;    /* (rows, rows), (rows,) */
-    int opens;              /* true if a row has just let go: of equal solutions, that in which most are open */
+    int opens;              /* true if a row has just opened: of equal solutions, the one with most rows open is returned */
     signed char *state;     /* (rows,) result, as of groups */
     int *tie;               /* (rows,) result: an earlier row of friction that is parallel; -1: none */
     double *factor;         /* (rows,) result: length of such a row in units of that one */
@@ -26,10 +26,9 @@ typedef struct zd_contact_problem {
 } zd_contact_problem;
 
 size_t zd_problem_scratch(int rows);
-/* Number of solutions that differ in w, at most 2, of which the first is returned: that in which most press and stick, unless `opens`. Where
- * static friction
- * exceeds sliding, what can stick sticks. -1: there are too many cases. */
+/* Number of solutions that differ in w, at most 2. The first is returned: the one with most contacts closed and sticking, unless `opens`.
+ * Where static friction exceeds sliding friction, sticking is preferred. -1: too many cases. */
 int zd_problem_solve(zd_contact_problem *self);
-/* x <- solution of A x = x, (n, n), n at most ZD_MAX_CANDIDATES, with zero for what is not determined; 0 if the equations contradict each
- * other. A is overwritten. */
+/* x <- solution of A x = x, (n, n), n at most ZD_MAX_CANDIDATES, with zero for unknowns that are not determined; 0 if the equations are
+ * inconsistent. A is overwritten. */
 int zd_problem_equations(int n, double *A, double *x);

@@ -1,9 +1,9 @@
-/* Changes of phase: at an event of a group, at the start, and where a joint lets go or joins. All contacts that touch take part.
+/* Changes of phase: at an event of a group, at the start, and where a joint is released or joined. All contacts that touch take part.
  *
  * impact           0 <= Lambda, complementary to g v+ + e g v- >= 0; Coulomb's bounds on the impulses of friction, v+ = v- + x Lambda
  * contact          0 <= N, complementary to the acceleration of the gap; sticking or sliding within Coulomb's bounds
  *
- * Approaching slower than the rest speed gives no bounce, and what then separates more slowly stays closed if it is pressed together.
+ * A contact that approaches slower than the rest speed does not bounce; one that separates slower stays closed if it is pressed together.
  * Friction with a fixed bound, and that by the load of a joint, has no impulse.
  */
 #include <math.h>
@@ -90,11 +90,11 @@ static int find_accelerations(zd_contacts *it)
     if (!status) status = zd_phase_evaluate(it->phases->present->of, ZD_XI, it->phases->at.t, it->phases->at.p, it->phases->at.v);
     const double *xi = zd_phase_xi(it->phases->present->of);
     for (int k = 0; k < it->count && !status; k++)
-        it->b[k] = zd_dot_all(nv, it->g + (size_t)k * nv, motion->point->vdot) - it->sign[k] * xi[zd_candidate_group(it, k)->first];
+        it->b[k] = zd_dot(nv, it->g + (size_t)k * nv, motion->point->vdot) - it->sign[k] * xi[zd_candidate_group(it, k)->first];
     return status;
 }
 
-/* z (count,) <- impulses along the rows that are closed or stick that change their velocities by -w (count,). */
+/* z (count,) <- impulses along the closed and sticking rows that change their velocities by -w (count,). */
 static int find_correction(const zd_contacts *it, const double *w, double *z)
 {
     double A[ZD_MAX_CANDIDATES * ZD_MAX_CANDIDATES], x[ZD_MAX_CANDIDATES];
@@ -134,7 +134,7 @@ static int close_gaps(zd_contacts *it)
     return ZD_DONE;
 }
 
-/* Velocities along the rows that are closed or stick become zero, the rounding of the first correction, too. */
+/* Velocities along closed and sticking rows become zero; the second correction removes the rounding of the first. */
 static int bring_to_rest(zd_contacts *it)
 {
     double z[ZD_MAX_CANDIDATES];
@@ -167,7 +167,7 @@ static int find_next(zd_contacts *it)
     return status;
 }
 
-/* Friction by loads that are found only in the new phase: what does not stick there, slides. */
+/* Friction whose loads are known only in the new phase: it slides if it exceeds its bound there. */
 static int enter_next(zd_contacts *it)
 {
     zd_run *run = it->run;

@@ -16,7 +16,7 @@ static int refuse_start(zd_contacts *it, const zd_group *group, double gap)
     return ZD_BAD_START;
 }
 
-/* State that a group must take if its margin has just become zero: what is closed opens, what sticks slides against its force. */
+/* State that a group must enter if its margin has just become zero: a closed row opens, sticking friction slides against its force. */
 static signed char find_end(const zd_contacts *it, int g)
 {
     const zd_watch *watch = &it->run->watch;
@@ -27,7 +27,6 @@ static signed char find_end(const zd_contacts *it, int g)
     return zd_point_multipliers(it->run->motion.point)[phases->full->group[g].first] > 0 ? ZD_SLIDES_FORWARD : ZD_SLIDES_BACKWARD;
 }
 
-/* Lists the contacts that touch, and their friction; `next` is without them. */
 int zd_contacts_find(zd_contacts *it, int is_start)
 {
     const zd_phases *phases = it->phases;
@@ -66,7 +65,6 @@ int zd_contacts_find(zd_contacts *it, int is_start)
     return ZD_DONE;
 }
 
-/* Bounds of friction by loads, as they are now. */
 int zd_contacts_find_loads(zd_contacts *it)
 {
     zd_motion *motion = &it->run->motion;
@@ -95,7 +93,6 @@ int zd_contacts_allocate(zd_contacts *it)
     return ZD_DONE;
 }
 
-/* g, x and W in the phase without the candidates, which is the present one. */
 int zd_contacts_find_answers(zd_contacts *it)
 {
     zd_motion *motion = &it->run->motion;
@@ -112,7 +109,7 @@ int zd_contacts_find_answers(zd_contacts *it)
         motion->statistics.solves++;
     }
     for (int j = 0; j < n && !status; j++)
-        for (int k = 0; k < n; k++) it->W[j * n + k] = zd_dot_all(nv, it->g + (size_t)j * nv, it->x + (size_t)k * nv);
+        for (int k = 0; k < n; k++) it->W[j * n + k] = zd_dot(nv, it->g + (size_t)j * nv, it->x + (size_t)k * nv);
     return status;
 }
 
@@ -121,10 +118,9 @@ void zd_contacts_find_velocities(zd_contacts *it)
     const int nv = it->phases->full->nv;
     const double *Phi_t = zd_phase_Phi_t(it->phases->present->of);
     for (int k = 0; k < it->count; k++)
-        it->w[k] = zd_dot_all(nv, it->g + (size_t)k * nv, it->phases->at.v) + it->sign[k] * Phi_t[zd_candidate_group(it, k)->first];
+        it->w[k] = zd_dot(nv, it->g + (size_t)k * nv, it->phases->at.v) + it->sign[k] * Phi_t[zd_candidate_group(it, k)->first];
 }
 
-/* v <- v + x z */
 void zd_contacts_apply(zd_contacts *it, const double *z)
 {
     const int nv = it->phases->full->nv;
@@ -148,9 +144,9 @@ int zd_contacts_solve(zd_contacts *it, int rows, const char *what)
     const int found = zd_problem_solve(&problem);
     if (found == 1) return ZD_DONE;
     const char *how = found < 0 ? "too many contacts change at one instant: they must be fewer"
-                    : !found ? rows > it->normals ? "there is no solution, as in Painleve's paradox: friction must be smaller"
-                                                  : "there is no solution: drives and joints must let it stop"
-                    : "there are several solutions, as in Painleve's paradox: friction must be smaller";
+                    : !found ? rows > it->normals ? "no solution exists, as in Painleve's paradox: friction must be smaller"
+                                                  : "no solution exists: drives and joints must allow the bodies to stop"
+                    : "several solutions exist, as in Painleve's paradox: friction must be smaller";
     snprintf(it->run->outcome.message, ZD_MESSAGE, "%s of contact '%s' and those that act with it: %s", what, zd_candidate_group(it, 0)->name,
              how);
     return ZD_SEVERAL_MOTIONS;

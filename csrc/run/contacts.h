@@ -20,7 +20,7 @@ typedef struct zd_contacts {
     double *W, *scratch, *zero;     /* (count, count); of the problem; (m,) */
     signed char *next;      /* (groups,) */
     int is_changed;         /* true if an impulse has changed velocities */
-    signed char ends[ZD_MAX_CANDIDATES];    /* states that rows which let go at this instant must take; ZD_OPEN: they may stay */
+    signed char ends[ZD_MAX_CANDIDATES];    /* state that a row must enter whose margin became zero at this instant; ZD_OPEN: any */
     void *memory;
 } zd_contacts;
 
@@ -46,12 +46,6 @@ static inline double zd_group_scale(const zd_phases *phases, const zd_group *gro
 static inline double zd_rest_speed(const zd_contacts *self, int k)
 {
     return 1e-6 * zd_group_scale(self->phases, zd_candidate_group(self, k));
-}
-static inline double zd_dot_all(int n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++) sum += a[i] * b[i];
-    return sum;
 }
 
 /* Gap of a start or of a joint, relative to the characteristic length, beyond which it is an error */

@@ -285,7 +285,7 @@ int zd_phase_enter(zd_run *run, const signed char *state, int prepares)
         pass_on(run, before);
     }
     for (int k = 0; k < to->of->system.mh; k++)
-        if (to->of->keeps_place[k]) to->of->value[k] = self->offset[to->of->row[k]];
+        if (to->of->keeps_value[k]) to->of->value[k] = self->offset[to->of->row[k]];
     status = start_phase(run);
     if (status || prepares) return status;
     status = zd_start_check(run, run->motion.point->rhs);

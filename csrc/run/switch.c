@@ -1,4 +1,4 @@
-/* Joints that let go and join, and other states of a run with phases. */
+/* Release and joining of joints, and other states of a run with phases. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

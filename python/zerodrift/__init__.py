@@ -13,7 +13,7 @@ Call first, by task (``m`` is a mechanism or other system, ``sol`` a solution)::
     simulate                    sol = zd.simulate(m, 10.0)
     read forces and motions     sol["pin.force"]; m.measures lists names; zd.Instant reads one state
     plot                        zd.plot.mechanism(sol), zd.plot.measures(sol, ["pin.force"]); zd.display_units(force="kN")
-    find the greatest loads     sol.loads("crank.angle"), sol["ground.force"], zd.plot.polar(sol, "pin.force")
+    find the maximum loads      sol.loads("crank.angle"), sol["ground.force"], zd.plot.polar(sol, "pin.force")
     play a film                 zd.view(sol); with sliders: zd.explore
     stop at an event            zd.simulate(m, 10.0, events=zd.Event(...))
     control a run, step by step zd.Run, zd.every; many together: zd.ManyRuns

@@ -1,4 +1,4 @@
-"""Units of display: results and pictures show quantities in them, and nothing is computed in them."""
+"""Units of display: tables and pictures use them; computations are in SI units."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Shown(NamedTuple):
 class display_units:        # noqa: N801 - called as a function
     """Choose the units in which results and pictures show quantities from now on.
 
-    What is computed stays in SI units: ``sol["pin.force"]`` is in N. The choice holds for `Solution.to_csv`, `Solution.to_excel`,
+    Results stay in SI units: ``sol["pin.force"]`` is in N. The choice holds for `Solution.to_csv`, `Solution.to_excel`,
     `Solution.to_frame`, `Solution.loads`, ``zerodrift.plot``, and for films, explorations and live pages that are made after it;
     their argument `display` takes precedence. Each call replaces the choice before, one without arguments by SI units. In a
     ``with`` statement the choice ends with it.

@@ -172,7 +172,7 @@ def test_a_latch_conserves_angular_momentum_and_loses_carnots_energy():
     assert sol[second.angle][-1] == pytest.approx(sol[second.angle][after], abs=1e-10)
 
 
-def test_a_run_lets_go_and_joins():
+def test_a_run_releases_and_joins():
     m = zd.Mechanism("drop", gravity=(0, -G))
     body = m.particle("ball", 1.0, at=(0, 1))
     m.revolute("hook", m.ground, body, active=True)

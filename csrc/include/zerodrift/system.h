@@ -117,7 +117,7 @@ typedef struct zd_reading {
 /* Constraints that are switched on and off together, such as those of a latch, a stop or a contact. Rows outside all groups are always
  * active. With g = sign (Phi - value) the gap of a one-sided row, its force on g is N = -sign lambda. */
 enum zd_group_kind {
-    ZD_TWO_SIDED,           /* rows of a joint that lets go and joins, all holonomic or all nonholonomic */
+    ZD_TWO_SIDED,           /* rows of a joint that is released and joined, all holonomic or all nonholonomic */
     ZD_ONE_SIDED,           /* one holonomic row: g >= 0, N >= 0, and one of them zero */
     ZD_FRICTION             /* one row, a slip velocity C v + Phi_t: zero, or a force against it. Its Phi is not read. */
 };

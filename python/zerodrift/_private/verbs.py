@@ -20,7 +20,7 @@ WORDS = {"speed": ("rpm", "omega", "w", "velocity", "angular_velocity"), "angle"
 
 
 def verb(method: Callable[..., Any]) -> Callable[..., Any]:
-    """Return the method with errors that name it, the argument and what it takes."""
+    """Return the method with errors that name it, the unknown argument and those that it takes."""
     signature = inspect.signature(method)
     if any(each.kind is each.VAR_KEYWORD for each in signature.parameters.values()):
         return method

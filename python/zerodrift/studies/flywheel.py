@@ -45,7 +45,7 @@ class Flywheel:
     inertia : float
         Moment of inertia of the flywheel in kg m^2; 0 if the machine needs none.
     fluctuation : float
-        (wmax - wmin) / wmean of the run; less than the one asked for where `inertia` is 0.
+        (wmax - wmin) / wmean of the run; less than requested where `inertia` is 0.
     formula : float
         Inertia in kg m^2 by the formula of textbooks, energy / (fluctuation speed^2).
     energy : float
@@ -133,7 +133,7 @@ def flywheel(system: SystemLike, shaft: MeasureLike, *, speed: float, fluctuatio
 
 
 class _Turn(NamedTuple):
-    """A turn under a constant torque: what it began with, and what it has become."""
+    """A turn under a constant torque: its initial values and its results."""
 
     inertia: float          # kg m^2: of the flywheel
     torque: float           # N m

@@ -330,7 +330,7 @@ def system_of(given: Any, *state: Any) -> Any:
 
 
 def switches_of(system: Any) -> dict[str, int]:
-    """Joints that let go and join, by name, with the numbers by which actions of events name them."""
+    """Joints that can be released and joined, by name, with the numbers by which actions of events name them."""
     return {name: gateway.SWITCHES - i for i, (name, kind) in enumerate(getattr(system, "_groups", ())) if kind == "two-sided"}
 
 

@@ -26,7 +26,7 @@ Friction = float | tuple[float, float]
 
 
 class ContactVerbs(Elements):
-    """Constraints of one side."""
+    """One-sided constraints and latches."""
 
     def contact(self, name: str, first: Body | Point | str, shape: Line, *, radius: float = 0.0, restitution: float = 0.0,
                 friction: Friction = 0.0) -> Contact:
@@ -129,7 +129,7 @@ class ContactVerbs(Elements):
 
 
     def latch(self, name: str, joint: Joint | str, *, when: MeasureLike | Expression | Event, until: Any = None) -> Latch:
-        """Join a joint at an event, and let it go at another.
+        """Join a joint at one event and release it at another.
 
         Parameters
         ----------
@@ -137,7 +137,7 @@ class ContactVerbs(Elements):
         joint : Joint or name
             Made with ``active=``. It joins as the bodies stand, with a plastic impact (25b), which `Solution.impacts` has.
         when, until : measure, text, SymPy expression or Event
-            Quantities: the joint joins when the first passes through zero upward, and lets go when the second does. In text,
+            Quantities: the joint is joined when the first passes through zero upward, released when the second does. In text,
             the longest name of a measure at a place counts; numbers, + - * / and brackets.
 
         Returns
@@ -181,7 +181,7 @@ SWITCHED: dict[str, tuple[tuple[str, ...], str]] = {
 
 
 def with_switches(m: Elements, joint: Joint, given: Mapping[str, Any]) -> Joint:
-    """The joint with dry friction, or one that may let go and join, by the arguments of its verb."""
+    """The joint with dry friction, or one that can be released and joined, by the arguments of its verb."""
     if not given:
         return joint
     name = joint.name

@@ -34,8 +34,8 @@ WORDS = {
                  "the joint is then constraints, not a coordinate."),
     "radius": ("float, optional", "Radius of the pin in m, on which `friction` acts: its torque is at most ``mu r |F|``."),
     "guide": ("float, optional", "Length of the guide in m: friction is at most ``mu max(|F|, 2 |M| / l)``."),
-    "active": ("bool, optional", "True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and "
-               "``Event(then=)``, and is joined at the start or not; it is constraints then, not a coordinate.")}
+    "active": ("bool, optional", "Initial state of a joint that can be released and joined, by `Run.release`, `Run.join`, "
+               "`Mechanism.latch` and ``Event(then=)``; it is then constraints, not a coordinate.")}
 EXAMPLES = {"axis": ("(1, 0)", "(1, 0, 0)"), "along": ("(1, 0)", "(1, 0, 0)"), "axes": ("", "((1, 0, 0), (0, 1, 0))"),
             "normal": ("", "(0, 0, 1)"), "pitch": ("", "0.002"), "length": ("0.5", "0.5")}       # in the plane, in space
 

@@ -138,8 +138,8 @@ class TableVerbs(Elements):
         radius : float, optional
             Radius of the pin in m, on which `friction` acts: its torque is at most ``mu r |F|``.
         active : bool, optional
-            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
-            joined at the start or not; it is constraints then, not a coordinate.
+            Initial state of a joint that can be released and joined, by `Run.release`, `Run.join`, `Mechanism.latch` and
+            ``Event(then=)``; it is then constraints, not a coordinate.
 
         Returns
         -------
@@ -192,8 +192,8 @@ class TableVerbs(Elements):
         guide : float, optional
             Length of the guide in m: friction is at most ``mu max(|F|, 2 |M| / l)``.
         active : bool, optional
-            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
-            joined at the start or not; it is constraints then, not a coordinate.
+            Initial state of a joint that can be released and joined, by `Run.release`, `Run.join`, `Mechanism.latch` and
+            ``Event(then=)``; it is then constraints, not a coordinate.
 
         Returns
         -------
@@ -233,8 +233,8 @@ class TableVerbs(Elements):
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
         active : bool, optional
-            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
-            joined at the start or not; it is constraints then, not a coordinate.
+            Initial state of a joint that can be released and joined, by `Run.release`, `Run.join`, `Mechanism.latch` and
+            ``Event(then=)``; it is then constraints, not a coordinate.
 
         Returns
         -------
@@ -269,8 +269,8 @@ class TableVerbs(Elements):
         length : float
             In m, above 0; left out: as drawn.
         active : bool, optional
-            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
-            joined at the start or not; it is constraints then, not a coordinate.
+            Initial state of a joint that can be released and joined, by `Run.release`, `Run.join`, `Mechanism.latch` and
+            ``Event(then=)``; it is then constraints, not a coordinate.
 
         Returns
         -------
@@ -311,8 +311,8 @@ class TableVerbs(Elements):
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
         active : bool, optional
-            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
-            joined at the start or not; it is constraints then, not a coordinate.
+            Initial state of a joint that can be released and joined, by `Run.release`, `Run.join`, `Mechanism.latch` and
+            ``Event(then=)``; it is then constraints, not a coordinate.
 
         Returns
         -------
@@ -354,8 +354,8 @@ class TableVerbs(Elements):
             The velocity of the point along ``cross(normal, along)`` is zero. This direction turns with the body: a body that
             leans takes it along. The joint does not keep the point on a plane.
         active : bool, optional
-            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
-            joined at the start or not; it is constraints then, not a coordinate.
+            Initial state of a joint that can be released and joined, by `Run.release`, `Run.join`, `Mechanism.latch` and
+            ``Event(then=)``; it is then constraints, not a coordinate.
 
         Returns
         -------
@@ -396,8 +396,8 @@ class TableVerbs(Elements):
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
         active : bool, optional
-            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
-            joined at the start or not; it is constraints then, not a coordinate.
+            Initial state of a joint that can be released and joined, by `Run.release`, `Run.join`, `Mechanism.latch` and
+            ``Event(then=)``; it is then constraints, not a coordinate.
 
         Returns
         -------
@@ -439,8 +439,8 @@ class TableVerbs(Elements):
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
         active : bool, optional
-            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
-            joined at the start or not; it is constraints then, not a coordinate.
+            Initial state of a joint that can be released and joined, by `Run.release`, `Run.join`, `Mechanism.latch` and
+            ``Event(then=)``; it is then constraints, not a coordinate.
 
         Returns
         -------
@@ -484,8 +484,8 @@ class TableVerbs(Elements):
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
         active : bool, optional
-            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
-            joined at the start or not; it is constraints then, not a coordinate.
+            Initial state of a joint that can be released and joined, by `Run.release`, `Run.join`, `Mechanism.latch` and
+            ``Event(then=)``; it is then constraints, not a coordinate.
 
         Returns
         -------
@@ -527,8 +527,8 @@ class TableVerbs(Elements):
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
         active : bool, optional
-            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
-            joined at the start or not; it is constraints then, not a coordinate.
+            Initial state of a joint that can be released and joined, by `Run.release`, `Run.join`, `Mechanism.latch` and
+            ``Event(then=)``; it is then constraints, not a coordinate.
 
         Returns
         -------
@@ -572,8 +572,8 @@ class TableVerbs(Elements):
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
         active : bool, optional
-            True or False: it lets go and joins, by `Run.release`, `Run.join`, `Mechanism.latch` and ``Event(then=)``, and is
-            joined at the start or not; it is constraints then, not a coordinate.
+            Initial state of a joint that can be released and joined, by `Run.release`, `Run.join`, `Mechanism.latch` and
+            ``Event(then=)``; it is then constraints, not a coordinate.
 
         Returns
         -------

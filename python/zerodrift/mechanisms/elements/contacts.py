@@ -97,7 +97,7 @@ class Stop(Fixed):
 
 
 class Latch(Fixed):
-    """Events at which a joint joins and lets go, `Mechanism.latch`.
+    """Events at which a joint is joined and released, `Mechanism.latch`.
 
     Attributes
     ----------
@@ -105,7 +105,7 @@ class Latch(Fixed):
     joint : str
         Name of the joint.
     when, until : str, Event or SymPy expression; None
-        Quantities that pass through zero upward when it joins, and when it lets go.
+        Quantities that pass through zero upward when it is joined, and when it is released.
     """
 
     kind = "latch"

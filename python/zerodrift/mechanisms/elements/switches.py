@@ -41,7 +41,7 @@ def friction_with(numbers: Numbers, element: Any, word: str, values: tuple[float
 class Switched(NamedTuple):
     """Switched parts of a joint: the joint itself, and dry friction along its coordinate."""
 
-    active: bool | None = None              # True or False: it is joined at the start, and may let go and join
+    active: bool | None = None              # True or False: it is joined at the start; it can be released and joined
     bounds: tuple[float, float] | None = None       # static and sliding friction in N or N m
     friction: tuple[float, float] | None = None     # coefficients of the load
     radius: float = 0.0                     # m: of a pin

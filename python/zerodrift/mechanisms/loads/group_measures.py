@@ -1,4 +1,4 @@
-"""Measures of several bodies together, and of all that acts on the ground: weight less the rate of all momentum.
+"""Measures of groups of bodies, and the resultant on the ground: weight less the rate of the total momentum.
 
 Forces between bodies cancel in the sum over all, so that what a mechanism exerts on the ground follows from its motion.
 """

@@ -249,7 +249,7 @@ def _of_latch(latch: Any, system: BaseSystem) -> list[Watched]:
 
 
 def inputs_of(given: Any, system: Any) -> list[str]:
-    """Inputs of a system that are set by the dicts of events, each once; joints that let go and join are not inputs."""
+    """Inputs of a system that are set by the dicts of events, each once; joints that are released and joined are not inputs."""
     listed = given if isinstance(given, Sequence) and not isinstance(given, str) else [given]
     return list(dict.fromkeys(key for each in listed if isinstance(each, Event) and isinstance(each.then, Mapping)
                               for key in each.then if key not in switches_of(system)))

@@ -1,4 +1,4 @@
-"""Loads of a solution: all that acts on the ground, and the greatest reaction of each joint."""
+"""Loads of a solution: the resultant on the ground, and the maximum reaction of each joint."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ class GroundLoad(NamedTuple):
 
 
 class Load(NamedTuple):
-    """The greatest magnitude of a joint's force or moment, in N or N m; `angle` of the crank in rad, NaN without one.
+    """The maximum magnitude of a joint's force or moment, in N or N m; `angle` of the crank in rad, NaN without one.
 
-    `is_unique` is False if redundant constraints leave a component open, whose least value counts.
+    `is_unique` is False if redundant constraints leave a component undetermined; its minimum norm is taken.
     """
 
     joint: str
@@ -35,12 +35,12 @@ class Load(NamedTuple):
 
 
 class Loads:
-    """Table of the greatest reactions, `Solution.loads`; it prints itself in the units of display.
+    """Table of the maximum reactions, `Solution.loads`; it prints itself in the units of display.
 
     Attributes
     ----------
     rows : list of Load
-        In SI units, of each joint its force and, where it transmits one, its moment.
+        In SI units, the force of each joint and, where it transmits one, its moment.
     crank : str or None
     """
 
@@ -65,7 +65,7 @@ class Loads:
         with units.display_units(self._display):
             time, angle = units.shown("s"), units.shown("rad")
             crank = [f"{self.crank} [{angle.unit}]"] if self.crank else []
-            found: list[list[Any]] = [["joint", "quantity", "greatest", "unit", f"t [{time.unit}]", *crank, "unique"]]
+            found: list[list[Any]] = [["joint", "quantity", "maximum", "unit", f"t [{time.unit}]", *crank, "unique"]]
             for row in self.rows:
                 of = units.shown("N" if row.quantity == "force" else "N m")
                 found.append([row.joint, row.quantity, row.magnitude * of.factor, of.unit, row.t * time.factor,
@@ -75,7 +75,7 @@ class Loads:
     def __repr__(self) -> str:
         heading, *rows = self._cells()
         table = [[*heading[:-1], ""], *([*(f"{each:.6g}" if isinstance(each, float) else str(each) for each in row[:-1]),
-                                         "" if row[-1] else "not unique: the least"] for row in rows)]
+                                         "" if row[-1] else "not unique: minimum norm"] for row in rows)]
         widths = [max(map(len, column)) for column in zip(*table, strict=True)]
         return "\n".join("  ".join(each.ljust(width) for each, width in zip(row, widths, strict=True)).rstrip() for row in table)
 
@@ -84,7 +84,7 @@ class Loaded:
     """Loads, as methods of a solution."""
 
     def ground_load(self: Any, about: ArrayLike | None = None) -> GroundLoad:
-        """All that acts on the ground: joints, springs, and forces without a body against which they act.
+        """Resultant on the ground: of joints, springs, and forces without a body against which they act.
 
         It is the weight of the mechanism less the rate of its momentum, so that redundant constraints leave it unique.
 
@@ -124,12 +124,12 @@ class Loaded:
 
     @units.displayed
     def loads(self: Any, crank: MeasureLike | None = None, *, display: Display | None = None) -> Loads:
-        """The greatest force and moment of each joint at the samples, with the time.
+        """The maximum force and moment of each joint at the samples, with the time.
 
         Parameters
         ----------
         crank : measure or str, optional
-            An angle that the table has, too, such as ``"main.angle"``.
+            An angle that becomes a column of the table, such as ``"main.angle"``.
         display : dict of str to str, optional
             Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
 
@@ -147,7 +147,7 @@ class Loaded:
         >>> import zerodrift as zd
         >>> sol = zd.simulate(zd.models.slider_crank(), 1.0, step=0.01)
         >>> print(sol.loads("crank.angle", display={"angle": "deg"}))       # doctest: +ELLIPSIS
-        joint  quantity  greatest  unit  t [s]  crank.angle [deg]
+        joint  quantity  maximum  unit  t [s]  crank.angle [deg]
         main   force     ...
         """
         names = getattr(self.system._watching.core if self.measures else None, "joint_forces", None)
