@@ -131,6 +131,14 @@ int zd_run_measure(zd_run *run, const zd_system *system, int measure, double t, 
     return all->evaluate(system->data, functions, measure, t, p, v, vdot, multipliers, &at, scratch);
 }
 
+int zd_run_position_violation(zd_run *run, double *violation)
+{
+    zd_point *point = run->motion.point;
+    const int mh = run->motion.system.mh, status = mh ? zd_point_need(point, ZD_PHI) : ZD_DONE;
+    *violation = zd_max_abs(mh, point->terms.Phi);
+    return status;
+}
+
 int zd_run_energy_violation(zd_run *run, double *violation)
 {
     zd_motion *motion = &run->motion;

@@ -150,6 +150,8 @@ const zd_transition *zd_run_transition(const zd_run *run);
  * a group. */
 enum zd_joining { ZD_RELEASED, ZD_JOINED_HERE, ZD_JOINED };
 int zd_run_switch(zd_run *run, int group, enum zd_joining how);
+/* Largest |Phi| (3) of the active constraints at the present state. */
+int zd_run_position_violation(zd_run *run, double *violation);
 /* J: Psi_E (28) at the present state; ZD_NOT_FINITE where the system has no potential. */
 int zd_run_energy_violation(zd_run *run, double *violation);
 double zd_run_progress(const zd_run *run);                  /* 0 ... 1 */

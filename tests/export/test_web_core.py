@@ -111,10 +111,11 @@ def test_events_set_inputs(web):
 
 def test_contacts_have_the_bits_of_the_native_core(web):
     found, = web("const m = zd.create(core, block('it')); zd.advance(m, 3);"
-                 "tell([bits(zd.positions(m)), bits(zd.velocities(m)), Array.from(zd.read(m, 'b.force'))]);",
+                 "tell([bits(zd.positions(m)), bits(zd.velocities(m)), Array.from(zd.read(m, 'b.force')),"
+                 "zd.violation(m) < 1e-12]);",
                  it=zd.block(falling_box(), step=1e-2, outputs=["b.force"]))
     sol = zd.simulate(falling_box(), 3.0, step=1e-2, vector="baseline")
-    assert found == [bits(sol.p[-1]), bits(sol.v[-1]), sol["b.force"][-1].tolist()]
+    assert found == [bits(sol.p[-1]), bits(sol.v[-1]), sol["b.force"][-1].tolist(), True]
 
 
 @needs_chromium

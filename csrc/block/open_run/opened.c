@@ -18,7 +18,6 @@ static zd_opened *create(zd_arena *arena, const zd_block *block)
     zd_opened nowhere, *here = zd_arena_bytes(arena, sizeof *here), *self = here ? here : &nowhere;
     self->p = zd_arena_doubles(arena, system->nq);
     self->v = zd_arena_doubles(arena, system->nv);
-    self->Phi = zd_arena_doubles(arena, system->mh);
     const int of_measures = system->measures->scratch + system->nv + system->mh + system->mn;
     self->scratch = zd_arena_doubles(arena, of_measures > system->scratch ? of_measures : system->scratch);
     const size_t inputs = zd_block_inputs(block);
@@ -194,14 +193,8 @@ void zd_opened_poses(zd_opened *self, double *poses) { zd_block_poses(self->bloc
 
 double zd_opened_violation(zd_opened *self)
 {
-    const zd_system *system = zd_block_system(self->block);
-    const zd_terms terms = {.Phi = self->Phi, .scratch = self->scratch};
-    double largest = 0;
-    if (!system->mh) return 0;
-    const double *p = zd_run_p(self->run), *v = zd_run_v(self->run);
-    if (system->evaluate(system->data, ZD_PHI | ZD_MOVED, zd_run_time(self->run), p, v, &terms)) return NAN;
-    for (int i = 0; i < system->mh; i++) largest = fmax(largest, fabs(self->Phi[i]));
-    return largest;
+    double violation;
+    return zd_run_position_violation(self->run, &violation) ? NAN : violation;
 }
 
 double zd_opened_energy_violation(zd_opened *self)

@@ -12,7 +12,7 @@ struct zd_opened {
     zd_block *block;
     zd_run *run;
     zd_settings settings;
-    double *p, *v, *Phi, *scratch;
+    double *p, *v, *scratch;
     double t0, *initial;        /* time and inputs (inputs,) at the start of the run, if its state can be saved */
     double *present, *places;   /* (inputs,), (inputs, 3): copies of the inputs and of their places, put back if a state is refused */
     char message[ZD_OPENED_MESSAGE];
