@@ -69,9 +69,10 @@ def valve():
 
 
 def knob():
-    """A body without inertia on a driven hinge."""
+    """A body without inertia on a driven hinge, and a block before a stop."""
     m = zd.Mechanism("knob")
     m.motor("drive", m.revolute("turn", m.ground, m.body("eye", 0.1), at=(0, 0)), angle=0.0)
+    m.stop("end", m.prismatic("slide", m.ground, m.body("block", 0.1, 1.0), at=(1, 0), axis=(1, 0)).displacement, upper=1.0)
     return m
 
 

@@ -202,6 +202,7 @@ const flat = {
   ground: (p, r, size) => ground(p[0], size),
   wall: (p, r, size) => { const a = across(unit(p[1])); hatched(add(p[0], a, -2 * size), add(p[0], a, 2 * size), unit(p[1]), size); },
   rail: (p, r, size) => hatched(add(p[0], unit(sub(p[1], p[0])), -2 * size), add(p[1], unit(sub(p[1], p[0])), 2 * size), p[2], size),
+  stop: (p, r, size) => box(add(p[0], unit(p[1]), (r ? 2.7 : 2.2) * size), unit(p[1]), 0.7 * size, 1.7 * size, tones.line, null),
   road: (p, r, size) => { const along = unit(p[2]); hatched(add(p[0], along, -2 * size), add(p[1], along, 2 * size), across(along), size); },
   groove: (p, r, size, face, edge) => { bar([p[0], p[1]], 2.4 * size, tones.paper, edge); },
   guide: (p, r, size, face, edge) => line([p[0], p[1]], edge, 2),
@@ -309,9 +310,9 @@ const shadow = points => {
 const shades = new Set(["bar", "plate", "disc", "ring", "box", "rod"]);
 
 const anchor = points => points.length > 1 ? points[0].map((x, i) => (x + points[1][i]) / 2) : points[0];
-const single = new Set(["pin", "ball", "weld", "ground", "sleeve", "slider", "block", "wheel", "gear", "patch", "motor", "drive", "disc", "particle", "dot", "bushing", "blade", "mark"]);
+const single = new Set(["pin", "ball", "weld", "ground", "sleeve", "slider", "block", "wheel", "gear", "patch", "motor", "drive", "disc", "particle", "dot", "bushing", "blade", "mark", "stop"]);
 const joints = new Set(["pin", "ball", "weld", "sleeve", "dot", "particle", "mark"]);
-const back = ["ring", "gear", "cam", "ground", "wall", "rail", "road", "wheel", "disc", "coupled", "guide", "link", "curve", "groove", "rod", "cylinder", "damper", "spring", "slider", "rack", "block", "bushing", "weld", "particle", "roller", "spiral", "pin"];
+const back = ["ring", "gear", "cam", "ground", "wall", "rail", "road", "stop", "wheel", "disc", "coupled", "guide", "link", "curve", "groove", "rod", "cylinder", "damper", "spring", "slider", "rack", "block", "bushing", "weld", "particle", "roller", "spiral", "pin"];
 const draw = note => {
   begin();
   marks = [];

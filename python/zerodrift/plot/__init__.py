@@ -8,14 +8,15 @@ from .curves import energy, energy_violation, error, measures, motion, violation
 from .drawing import animate, mechanism, path
 from .linear import mode, root_locus
 from .many_runs import against, bands, heat_map
+from .phases import phases
 from .polar import polar
 from .studies import stability_map, work_precision
 from .style import COLOURS, panels
 from .traces import positions, trace
 
 __all__ = ["COLOURS", "against", "animate", "bands", "energy", "energy_violation", "error", "heat_map", "measures", "mechanism",
-           "mode", "motion", "panels", "path", "polar", "positions", "root_locus", "stability_map", "trace", "violation",
-           "work_precision"]
+           "mode", "motion", "panels", "path", "phases", "polar", "positions", "root_locus", "stability_map", "trace",
+           "violation", "work_precision"]
 
 
 def __dir__() -> list[str]:

@@ -109,6 +109,12 @@ def rail(shape: Shape, size: float) -> list[Mark]:
     return hatched(start - longer, end + longer, size, aligned=True)
 
 
+def stop(shape: Shape, size: float) -> list[Mark]:
+    """A block at (place, direction towards it), against which a slider comes to rest, or a bar if its number is zero."""
+    place, along = shape.points
+    return [box(place + ((BLOCK[0] if shape.number else BAR) + 0.7) * size * along, along, 0.7 * size, 1.7 * size, face=DARK)]
+
+
 def road(shape: Shape, size: float) -> list[Mark]:
     """A line on which a wheel rolls, from one place to another along it: (place, place, axis)."""
     start, end, axis = shape.points
@@ -322,9 +328,9 @@ class Glyph(NamedTuple):
     directions: int
 
 
-BACK_TO_FRONT = (ring, gear, cam, ground, wall, rail, road, wheel, disc, coupled, guide, link, curve, groove, rod, cylinder,
+BACK_TO_FRONT = (ring, gear, cam, ground, wall, rail, road, stop, wheel, disc, coupled, guide, link, curve, groove, rod, cylinder,
                  damper, spring, slider, rack, block, bushing, weld, particle, roller, spiral, pin, blade, mark, motor, drive,
                  load, load_symbol, moment)
-DIRECTED = {"drive": 2, **dict.fromkeys(("rail", "road", "wall", "groove", "guide", "slider", "block", "disc", "wheel", "gear",
-                                         "ring", "rack", "blade", "weld", "load", "load_symbol"), 1)}
+DIRECTED = {"drive": 2, **dict.fromkeys(("rail", "road", "stop", "wall", "groove", "guide", "slider", "block", "disc", "wheel",
+                                         "gear", "ring", "rack", "blade", "weld", "load", "load_symbol"), 1)}
 GLYPHS = {draw.__name__: Glyph(draw, 1.5 + 0.05 * i, DIRECTED.get(draw.__name__, 0)) for i, draw in enumerate(BACK_TO_FRONT)}

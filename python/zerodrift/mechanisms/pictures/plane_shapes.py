@@ -19,6 +19,7 @@ from .coupling_shapes import Couplings
 from .force_shapes import forces, walls
 from .plane_outline import APART
 from .plane_pose import Parts, Posed, at_moments
+from .stop_shapes import stops
 
 ASSUMED = 0.35      # of the distance to the end of its body: length of a groove without a known motion
 
@@ -63,7 +64,7 @@ class Sketch:
     def shapes(self, posed: Posed, ranges: Ranges) -> list[Shape]:
         """All shapes."""
         found = [*self._bodies(posed, ranges), *self._joints(posed, ranges), *forces(posed), *self.couplings.shapes(posed)]
-        return [*found, *(Shape("ground", posed.at(point)[None]) for point in self.held), *walls(posed, self.held)]
+        return [*found, *stops(posed), *(Shape("ground", posed.at(point)[None]) for point in self.held), *walls(posed, self.held)]
 
     def _bodies(self, posed: Posed, ranges: Ranges) -> Iterator[Shape]:
         for body in self.parts.drawing.parts():

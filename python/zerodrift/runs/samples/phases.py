@@ -25,7 +25,7 @@ class Phase(NamedTuple):
 
 def phases_of(transitions: np.ndarray, groups: Sequence[tuple[str, str]], end: float) -> list[Phase]:
     """The phases of a run that ended at this time; `groups` are the names and kinds of its groups of constraints."""
-    ends = [*transitions["t"][1:].tolist(), end]
+    ends = [*transitions["t"][1:].tolist(), end][:len(transitions)]
     return [Phase(float(row["t"]), t1, _words(row["state"], groups)) for row, t1 in zip(transitions, ends, strict=True)]
 
 
