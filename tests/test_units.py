@@ -140,6 +140,27 @@ def test_pictures_of_many_runs():
     assert ax.lines[0].get_ydata() == pytest.approx(np.degrees(ens["crank.angle"][1]))
 
 
+def test_pictures_of_studies():
+    spring = zd.systems.oscillator()
+    found = zd.work_precision(spring, 0.2, integrators=["rk4"], steps=[0.02, 0.01], rounds=1)
+    ax, plain = zd.plot.work_precision(found, display={"time": "us"}), zd.plot.work_precision(found)
+    assert (ax.get_xlabel(), plain.get_xlabel()) == ("time [us]", "time [ms]")
+    assert ax.lines[0].get_xdata() == pytest.approx(1e3 * np.asarray(plain.lines[0].get_xdata()))
+    mapped = zd.stability_map(lambda mass: zd.systems.oscillator(mass=mass), 0.2, steps=[0.02, 0.04], values=[1.0, 2.0],
+                              parameter="mass [kg]", ways={"projection": {}})
+    ax = zd.plot.stability_map(mapped, display=CHOSEN)[0]
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("step [ms]", "mass [g]")
+    assert ax.get_xlim() == pytest.approx([20 / 2**0.5, 40 * 2**0.5])
+    assert ax.get_ylim() == pytest.approx([1e3 / 2**0.5, 2e3 * 2**0.5])
+    lins = [zd.linearize(spring, (0.0, [0.0], [0.0]))]
+    ax = zd.plot.root_locus(lins, [5.0], label="speed [m/s]", display=CHOSEN)
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("real part [1/ms]", "imaginary part [rpm]")
+    drawn = ax.collections[0]
+    assert sorted(drawn.get_offsets()[:, 1]) == pytest.approx(sorted(30 / np.pi * lins[0].eigenvalues.imag))
+    assert list(drawn.get_array()) == pytest.approx([18.0, 18.0])
+    assert drawn.colorbar.ax.get_ylabel() == "speed [km/h]"
+
+
 def test_traces():
     traced = zd.trace(zd.models.four_bar(), "crank.angle", np.linspace(1.5, 1.7, 5), forces=True)
     ax = zd.plot.trace(traced, ["effort"], display=CHOSEN)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
+import re
 from collections.abc import Callable, Mapping
 from contextvars import ContextVar
 from types import MappingProxyType
@@ -107,6 +108,13 @@ def shown(unit: str) -> Shown:
     quantity = OF_UNIT.get(unit, "")
     wanted = chosen().get(quantity, unit)
     return Shown(wanted, 1 / UNITS[quantity][wanted] if wanted != unit else 1.0)
+
+
+def shown_label(label: str) -> Shown:
+    """Label, such as "mass [kg]", with the unit of display, and the factor of its values."""
+    found = re.fullmatch(r"(.*\[)([^\[\]]+)\]", label)
+    of = shown(found[2] if found else "")
+    return Shown(f"{found[1]}{of.unit}]" if found else label, of.factor)
 
 
 def _checked(given: Any) -> Mapping[str, str]:

@@ -67,7 +67,7 @@ class FreeBodies:
     def loads(self):
         for force in [each for each in self.m._elements.values() if isinstance(each, Force)]:
             at = self.at(force.point.body, force.point.local)
-            vector = self.sol[f"{force.name}.force"][:, None] * np.asarray(force.along)
+            vector = self.sol[f"{force.name}.force"][:, None] * (self.rotation(force.frame) @ np.append(force.along, 0.0)[:3])
             self.act(force.point.body, vector, at)
             self.act(self.m.ground, -vector, at)
 
@@ -156,11 +156,25 @@ def cut(model):
     return m
 
 
+def geneva():
+    """Four slots, while the pin is in one of them: the crank's arm and the slot are square where it comes and goes."""
+    m = zd.Mechanism("Geneva", gravity=(0, -9.81))
+    crank = m.body("crank", 2.0, 0.01, com=(0.01, 0))
+    wheel = m.body("wheel", 3.0, 0.02, at=(0.1 * np.sqrt(2), 0), angle=np.pi)
+    pin = 0.1 * np.array([np.cos(0.6), np.sin(0.6)])
+    m.revolute("main", m.ground, crank, at=(0, 0))
+    m.revolute("axle", m.ground, wheel, at=(0.1 * np.sqrt(2), 0))
+    m.slot("slot", wheel.point(at=(0.1 * np.sqrt(2), 0)), crank.point(at=pin), axis=pin - [0.1 * np.sqrt(2), 0])
+    m.force("work", wheel.point((0, 0.08)), along=(1, 0), frame=wheel, value=lambda t: 30 * np.cos(5 * t))
+    m.motor("drive", "main", speed=-12.0)
+    return m
+
+
 MACHINES = {
     "V-twin": v_twin, "shaper": lambda: cut(zd.models.quick_return()), "press": lambda: cut(zd.models.toggle_press()),
     "scissor lift": lambda: cut(zd.models.scissor_lift()), "crane": crane, "four-bar": lambda: cut(zd.models.four_bar()),
     "slider-crank": zd.models.slider_crank, "arm in space": bracket, "Stewart platform": zd.models.stewart_platform,
-    "heavy top": zd.models.heavy_top}
+    "heavy top": zd.models.heavy_top, "wishbone": zd.models.double_wishbone, "Geneva": geneva}
 
 
 @pytest.mark.parametrize("coordinates", ["joint", "absolute"])
@@ -176,6 +190,37 @@ def test_loads_are_those_of_free_bodies(name, coordinates):
     newton, ground = of.missing()
     assert newton < 1e-9
     assert ground < 1e-9
+
+
+@pytest.mark.parametrize("coordinates", ["joint", "absolute"])
+def test_loads_of_a_differential_are_those_of_free_bodies(coordinates):
+    """Carrier about x, two side gears of radius 0.05 m in it, and a pinion of 0.03 m about an axis across, all bevel gears."""
+    m, pitch, small, large = zd.Mechanism("differential", dimension=3, gravity=(0, 0, -9.81)), np.radians(20.0), 0.03, 0.05
+    carrier = m.body("carrier", 5.0, (0.08, 0.05, 0.06))
+    m.revolute("main", m.ground, carrier, at=(0.1, 0, 0), axis=(1, 0, 0))
+    pinion = m.body("pinion", 0.4, (2e-4, 3e-4, 2e-4), at=(0, large, 0))
+    m.revolute("pinion axle", carrier, pinion, at=(0, large, 0), axis=(0, 1, 0))
+    for side, sign in (("left", -1), ("right", 1)):
+        wheel = m.body(side, 1.0 + 0.5 * sign, (2e-3, 1.5e-3, 1.5e-3), at=(sign * small, 0, 0))
+        m.revolute(f"{side} axle", carrier, wheel, at=(sign * small, 0, 0), axis=(1, 0, 0))
+        m.gear(f"{side} mesh", f"{side} axle", "pinion axle", ratio=-sign * large / small, pressure_angle=pitch, radius=small)
+        m.force(f"{side} wheel", wheel.point((0, 0.04, 0)), along=(0, 0, 1), frame=wheel, value=20.0 + 5 * sign)
+    m.motor("drive", "main", speed=lambda t: 15.0 + np.sin(9 * t))
+    of = FreeBodies(m, zd.simulate(m.system(coordinates), 0.05, step=1e-3))
+    of.joints()
+    of.loads()
+    x, y, z = (of.rotation(carrier)[:, :, k] for k in range(3))
+    for side, sign in (("left", -1), ("right", 1)):
+        at = sign * small * x + large * y       # where the pitch cones touch; both axes go through the origin
+        tangential = of.sol[f"{side} mesh.torque"] / (-sign * small)        # moment about y of a force along z at x = r is -r
+        away = (sign * -large * x + small * y) / np.hypot(small, large)
+        force = tangential[:, None] * z + np.abs(tangential)[:, None] * np.tan(pitch) * away
+        of.act(pinion, force, at)
+        of.act(m[side], -force, at)
+    newton, ground = of.missing()
+    assert newton < 1e-9
+    assert ground < 1e-9
+    assert np.ptp(of.sol["pinion.angular_velocity"] @ np.ones(3)) > 1
 
 
 @pytest.mark.parametrize("coordinates", ["joint", "absolute"])

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from .. import units
 from .._private import checks
-from .._private.types import ArrayLike
+from .._private.types import ArrayLike, Display
 from ..analysis.linearization_result import EIGENVALUE_ROUNDING, Linearization
 from ..analysis.retraction import onto
 from ..errors import WrongValue
@@ -88,8 +89,9 @@ def mode_positions(lin: Linearization, index: int, amplitude: float, phases: Seq
     return [onto(lin.system, lin.t, lin.p + amplitude * dp) for dp in moved]
 
 
+@units.displayed
 def root_locus(lins: Sequence[Linearization], values: ArrayLike, ax: Axes | None = None, *, label: str = "",
-               **style: Any) -> Axes:
+               display: Display | None = None, **style: Any) -> Axes:
     """Draw the eigenvalues of several linearizations in the complex plane, coloured by a parameter.
 
     Parameters
@@ -100,7 +102,10 @@ def root_locus(lins: Sequence[Linearization], values: ArrayLike, ax: Axes | None
     ax : Axes, optional
         Left out: a new figure.
     label : str
-        Name and unit of the parameter, for the colour bar.
+        Name and unit of the parameter, for the colour bar, such as "speed [m/s]".
+    display : dict of str to str, optional
+        Units of the time for the real part, of the angular velocity for the imaginary part, and of the parameter, as of
+        `zerodrift.display_units`.
     **style
         For ``ax.scatter``.
 
@@ -121,13 +126,13 @@ def root_locus(lins: Sequence[Linearization], values: ArrayLike, ax: Axes | None
     """
     lins = [checks.instance("lins", each, Linearization, "a sequence of what zd.linearize returns") for each in lins]
     values = checks.vector("values", values, len(lins))
-    ax = _style.axes(ax)
+    ax, parameter, time, rate = _style.axes(ax), units.shown_label(label), units.shown("s"), units.shown("rad/s")
     points = np.concatenate([each.eigenvalues for each in lins]) if lins else np.zeros(0)
-    colours = np.repeat(values, [len(each.eigenvalues) for each in lins])
+    colours = np.repeat(parameter.factor * values, [len(each.eigenvalues) for each in lins])
     look: dict[str, Any] = {"s": 14.0, "cmap": "viridis"} | style
-    drawn = ax.scatter(points.real, points.imag, c=colours, **look)
+    drawn = ax.scatter(points.real / time.factor, rate.factor * points.imag, c=colours, **look)
     ax.axvline(0.0, color="0.4", linewidth=0.8)
-    ax.set_xlabel("real part [1/s]")
-    ax.set_ylabel("imaginary part [rad/s]")
-    ax.figure.colorbar(drawn, ax=ax, label=label)
+    ax.set_xlabel(f"real part [1/{time.unit}]")
+    ax.set_ylabel(f"imaginary part [{rate.unit}]")
+    ax.figure.colorbar(drawn, ax=ax, label=parameter.unit)
     return ax

@@ -12,7 +12,9 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.lines import Line2D
 
+from .. import units
 from .._private import checks
+from .._private.types import Display
 from ..errors import WrongValue
 from ..runs.arguments import methods
 from ..runs.arguments.methods import Projection
@@ -25,7 +27,8 @@ MARKERS = "os^Dv<>pPX*"
 LARGEST_ERROR = 1e30        # larger ones are not drawn, as no scale shows them beside the others
 
 
-def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
+@units.displayed
+def work_precision(result: WorkPrecision, ax: Axes | None = None, *, display: Display | None = None) -> Axes:
     """Draw error over time, on logarithmic scales: one line per method, and the Pareto front.
 
     Each integrator has a colour of its own in all such pictures, and is dashed where it chooses its steps; the marker is that of
@@ -38,6 +41,8 @@ def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
         Result of `zerodrift.work_precision`.
     ax : Axes, optional
         Axes to draw into; by default those of a new figure.
+    display : dict of str to str, optional
+        Unit of the time, as of `zerodrift.display_units`; left out: that of the session, otherwise ms.
 
     Returns
     -------
@@ -52,16 +57,17 @@ def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
     """
     checks.instance("result", result, WorkPrecision, "what zd.work_precision returns")
     ax = _style.axes(ax)
-    ax.set(xscale="log", yscale="log", xlabel="time [ms]", ylabel="max |p - reference|")
+    of = units.shown("s") if "time" in units.chosen() else units.Shown("ms", 1e3)
+    ax.set(xscale="log", yscale="log", xlabel=f"time [{of.unit}]", ylabel="max |p - reference|")
     done = [row for row in result.rows if row.success and 0 < row.error < LARGEST_ERROR]
     measured = {row.setting.integrator for row in result.rows}
     integrators = {name: colour for name, colour in _assign(methods.integrators(), COLOURS).items() if name in measured}
     variants = _assign((_variant(row.setting) for row in result.rows), MARKERS)
     for _, rows in itertools.groupby(done, key=lambda row: row.setting.method):
-        times, errors, first, *_ = _curve(rows)
+        times, errors, first, *_ = _curve(rows, of.factor)
         ax.plot(times, errors, "--" if first.tolerance else "-", color=integrators[first.integrator], linewidth=1, alpha=0.6,
                 marker=variants[_variant(first)], markersize=4)
-    times, errors, *_ = _curve(row for row in result.pareto() if row.error > 0)
+    times, errors, *_ = _curve((row for row in result.pareto() if row.error > 0), of.factor)
     ax.plot(times, errors, color="#F0E442", linewidth=8, zorder=0, solid_capstyle="round")
     if result.reference_error > 0:
         ax.axhline(result.reference_error, color="grey", linestyle=":", linewidth=1)
@@ -74,7 +80,8 @@ def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def stability_map(result: StabilityMap, axes: Sequence[Axes] | None = None) -> np.ndarray:
+@units.displayed
+def stability_map(result: StabilityMap, axes: Sequence[Axes] | None = None, *, display: Display | None = None) -> np.ndarray:
     """Draw the errors of all runs over step and parameter, one panel per way to simulate.
 
     Runs that did not reach their end are crossed out; errors beyond one are as bad as that.
@@ -85,6 +92,8 @@ def stability_map(result: StabilityMap, axes: Sequence[Axes] | None = None) -> n
         Result of `zerodrift.stability_map`.
     axes : sequence of Axes, optional
         One per way, of one figure; left out: a new figure.
+    display : dict of str to str, optional
+        Units of the step, and of a parameter whose name ends with its unit, as "mass [kg]"; as of `zerodrift.display_units`.
 
     Returns
     -------
@@ -108,11 +117,12 @@ def stability_map(result: StabilityMap, axes: Sequence[Axes] | None = None) -> n
     for ax in several:
         _style.given_axes(ax, "each of axes")
     least = max(result.reference_error, 1e-12)
-    scale = LogNorm(least, 1, clip=True)
+    scale, step, parameter = LogNorm(least, 1, clip=True), units.shown_label("step [s]"), units.shown_label(result.parameter)
     for ax, way in zip(several, result.rows, strict=True):
-        drawn = _draw_cells(ax, result.steps, result.values, np.maximum(result.error(way), least), scale)
-        ax.set(title=way, xlabel="step [s]")
-    several[0].set_ylabel(result.parameter)
+        errors = np.maximum(result.error(way), least)
+        drawn = _draw_cells(ax, step.factor * result.steps, parameter.factor * result.values, errors, scale)
+        ax.set(title=way, xlabel=step.unit)
+    several[0].set_ylabel(parameter.unit)
     several[0].figure.colorbar(drawn, ax=list(several), label="max |p - reference|")
     return several
 
@@ -129,10 +139,10 @@ def _draw_cells(ax: Axes, x: np.ndarray, y: np.ndarray, values: np.ndarray, scal
     return cells
 
 
-def _curve(rows: Iterable[Row]) -> tuple[Any, ...]:
-    """Times in ms, errors, and the settings of each row."""
+def _curve(rows: Iterable[Row], factor: float) -> tuple[Any, ...]:
+    """Times in units of display, errors, and the settings of each row."""
     rows = list(rows)
-    return [1e3 * row.seconds for row in rows], [row.error for row in rows], *(row.setting for row in rows)
+    return [factor * row.seconds for row in rows], [row.error for row in rows], *(row.setting for row in rows)
 
 
 def _variant(setting: Setting) -> str:
