@@ -7,6 +7,7 @@ import functools
 import http.server
 import importlib.util
 import json
+import re
 import shutil
 import subprocess
 import threading
@@ -117,7 +118,8 @@ def test_its_blocks_are_those_of_the_package(name, tmp_path):
 
 @needs_node
 @pytest.mark.parametrize("name", MECHANISMS)
-def test_its_python_text_makes_its_file_and_runs(name, tmp_path):
+def test_its_python_text_makes_its_file_and_runs(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     m = MECHANISMS[name]()
     (tmp_path / "m.json").write_text(saved(m))
     (text, again), = in_node("""const m = model.parsedModel(readFileSync("m.json", "utf8"));
@@ -125,6 +127,7 @@ def test_its_python_text_makes_its_file_and_runs(name, tmp_path):
     names = {}
     exec(compile(text, "board", "exec"), names)
     assert names["sol"].t[-1] == pytest.approx(0.01)
+    assert (tmp_path / f"{m.name}.html").is_file()
     made = described(names["m"]._drawing())
     for ours, theirs in zip(made.pop("elements"), again["elements"], strict=True):
         assert ours.keys() == theirs.keys()
@@ -509,6 +512,69 @@ def test_an_example_is_opened_on_an_empty_board(browser, server):
     opened(browser, server)
     browser.evaluate("""[...document.querySelectorAll('#examples button')]
         .find(each => each.textContent === 'Watt linkage').click()""")
-    assert motion(browser)[0] == "moves: yes, 1 freedom"
+    assert motion(browser)[0] == "moves: yes, 1 freedom, driven by drive"
     assert browser.evaluate("document.getElementById('examples').hidden")
+    click_on(browser, "new")
+    assert model(browser)["elements"] == []
+    click_on(browser, "undo")
+    assert len(model(browser)["elements"]) == 14
+    assert browser.errors == []
+
+
+@needs_chromium
+def test_the_graph_is_read_by_the_mouse_and_moves_the_picture(browser, server):
+    opened(browser, f"{server}#{address(MECHANISMS['four-bar']())}", width=1280, height=900)
+    browser.evaluate("""(() => { const parts = document.getElementById("parts");
+        parts.value = "A"; parts.dispatchEvent(new Event("change")); })()""")
+    browser.until("zerodrift.board.turn !== null && document.getElementById('turn').drawn")
+    box = browser.evaluate("""(() => { const element = document.getElementById("turn"); element.scrollIntoView();
+        const box = element.getBoundingClientRect(), [left, right] = element.drawn.area;
+        return [box.left + left, box.left + right, box.top + 60]; })()""")
+    browser("Input.dispatchMouseEvent", type="mouseMoved", x=(box[0] + box[1]) / 2, y=box[2])
+    browser.until("zerodrift.board.shown !== null")
+    assert browser.evaluate("zerodrift.board.shown") == pytest.approx(180, abs=1)
+    browser.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    number = browser.evaluate("zerodrift.film.layers[0].shapes.find(each => each[0] === 'link' && each[1] === 'crank')[2][1]")
+    end = browser.evaluate(f"zerodrift.film.layers[0].at[{number}]")
+    sol = zd.simulate(MECHANISMS["four-bar"](), np.pi / 3, step=1e-3)
+    half = browser.evaluate("zerodrift.board.shown") / 180 * np.pi
+    angle = sol["crank.angle"][0] + half
+    assert end == pytest.approx([0.4 * np.cos(angle), 0.4 * np.sin(angle)], abs=1e-6)
+    sizes = np.linalg.norm(zd.simulate(MECHANISMS["four-bar"](), 2 * np.pi / 3, step=1e-3)["A.force"], axis=1)
+    told = browser.evaluate("document.getElementById('turn-hint').textContent")
+    assert float(re.search(r"largest A.force: ([-\d.]+) N at", told)[1]) == pytest.approx(sizes.max(), rel=1e-3)
+    assert browser.errors == []
+
+
+@needs_chromium
+def test_links_snap_along_others_and_a_motor_that_they_stop_is_named(browser, server):
+    opened(browser, server, width=1280, height=800)
+    browser.evaluate("zerodrift.painter.show([-1.5, -0.5], [2.5, 1.8])")
+    draw(browser, "link", (0, 0), (1, 0))
+    draw(browser, "link", (0.513, 0.01), (0.5, 1))
+    assert model(browser)["elements"][2]["first"] == {"body": "link1", "local": [0.5, 0]}
+    draw(browser, "pin", (0, 0), (0.5, 1), (1, 0))
+    assert motion(browser)[0] == "moves: no, its links hold each other"
+    draw(browser, "motor", (0, 0))
+    assert told(browser).startswith("motor1 cannot turn: the links hold each other")
+    assert motion(browser)[0] == "moves: no, its links hold each other"
+    assert browser.errors == []
+
+
+@needs_chromium
+def test_two_fingers_zoom_about_the_place_between_them(browser, server):
+    opened(browser, server, width=400, height=800)
+    browser("Emulation.setTouchEmulationEnabled", enabled=True)
+    box = browser.evaluate("(each => [each.left, each.top])(document.getElementById('board').getBoundingClientRect())")
+    middle, before = [box[0] + 200, box[1] + 150], browser.evaluate("zerodrift.painter.toDrawing([200, 150])")
+    for kind, far in (("touchStart", 40), ("touchMove", 60), ("touchMove", 80), ("touchEnd", None)):
+        points = [{"x": middle[0] + sign * far, "y": middle[1], "id": i} for i, sign in enumerate((-1, 1))] if far else []
+        browser("Input.dispatchTouchEvent", type=kind, touchPoints=points)
+    browser("Emulation.setTouchEmulationEnabled", enabled=False)
+    assert browser.evaluate("zerodrift.painter.toDrawing([200, 150])") == pytest.approx(before, abs=1e-6)
+    wide = "zerodrift.painter.toDrawing([250, 0])[0] - zerodrift.painter.toDrawing([150, 0])[0]"
+    zoomed = browser.evaluate(wide)
+    click_on(browser, "fit")
+    assert zoomed == pytest.approx(browser.evaluate(wide) / 2)
+    assert model(browser)["elements"] == []
     assert browser.errors == []

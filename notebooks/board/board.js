@@ -4,14 +4,14 @@
 import {close, create, freedoms, load, positions, pull, read, step, time, unit, violation} from "../core.js";
 import {addressOf, angleOf, bodyOf, checkedModel, drawnPlace, elementNamed, emptyModel, isJoint, lengthOf, modelOfAddress, ofKind, parsedModel} from "./model.js";
 import {blockOf} from "./block.js";
-import {addBlock, addLink, addLoad, addMotor, addPin, addPoint, addSlot, addSpring, copyOf, moveTo, partsAt, remove, takePoses, targetAt} from "./edit.js";
+import {addBlock, addLink, addLoad, addMotor, addPin, addPoint, addSlot, addSpring, copyOf, moveTo, endsOf, partsAt, remove, takePoses, targetAt} from "./edit.js";
 import {looseOf, movesOf, placesOf, shapesOf, sidesOf, stretchedOf} from "./scene.js";
 import {fieldsOf} from "./fields.js";
 import {pythonOf} from "./python.js";
 
 const TOOLS = {
   move: ["Move", "v", "Drag a pin or an end. Press a part to see its numbers; press again for the next one there."],
-  link: ["Link", "l", "Press where it begins and where it ends. On another link it is pinned there."],
+  link: ["Link", "l", "Press one end, then the other. An end on another link is pinned to it."],
   pin: ["Pin to ground", "g", "Press an end or a point of a link."],
   slot: ["Slot", "o", "Press an end of a link: it then slides along a line of the ground, whose angle can be typed."],
   block: ["Block", "b", "Press a place, or an end of a link: a block with mass slides along a line of the ground."],
@@ -19,7 +19,7 @@ const TOOLS = {
   load: ["Load", "f", "Press an end or a point of a link: a force acts there, whose components can be typed."],
   motor: ["Motor", "m", "Press a pin or a slot."],
   spring: ["Spring", "s", "Press its two ends, on links or on the ground."],
-  remove: ["Remove", "x", "Press what is to go."],
+  remove: ["Remove", "x", "Press the part to remove; what depends on it goes, too."],
 };
 const BUDGET = 8, PIN = 6.5, REACH = 16, TOUCH = 26, STEP = 1e-3, MAX_UNDO = 100;       // ms of computation in a picture; points of the screen; s
 const EXAMPLES = /*examples*/[];
@@ -28,7 +28,8 @@ const canvas = byId("board"), layer = {shapes: [], at: [], fixed: [], paths: [],
 const film = {name: "board", dimension: 2, low: [-1, -0.5], high: [1, 0.5], follow: 0, pin: 0.03, arrow: 1, names: true, layers: [layer]};
 const picture = pictureOf(film, canvas, () => {});
 const board = {model: emptyModel(), core: null, mechanism: null, tool: "link", chosen: null, pending: null, cursor: null, held: null, isPlaying: false,
-               moved: false, history: [], future: [], reach: REACH, pictures: 0, cost: 0, turn: null, stretched: []};
+               moved: false, history: [], future: [], reach: REACH, pictures: 0, cost: 0, turn: null, stretched: [], fingers: new Map(), shown: null,
+               isStill: false, reason: ""};
 const painter = {toScreen: (at) => picture.project(at).slice(0, 2), toDrawing: (at) => picture.unproject(at, 0), show};
 globalThis.zerodrift = {board, painter, film, addressOf, blockOf, positions, pythonOf, read, time, violation, freedoms, table};
 
@@ -42,10 +43,10 @@ function show(low, high) {
   picture.begin();
 }
 
-// The view shows all of a drawing, with room around it.
+// The view shows all of a drawing and of its motion over a turn, with room around it.
 function fitView() {
-  const places = board.model.elements.flatMap(sidesOf).map((side) => drawnPlace(board.model, side))
-    .concat(ofKind(board.model, "link").flatMap(({start, end}) => [start, end]));
+  const sides = board.model.elements.flatMap(sidesOf).concat(endsOf(board.model, 0)), poses = turnOf().poses.filter((_, i) => i % 10 === 0);
+  const places = [null, ...poses].flatMap((p) => sides.map(placesOf(board.model, p)));
   const [low, high] = places.length ? [Math.min, Math.max].map((limit) => [0, 1].map((k) => limit(...places.map((at) => at[k])))) : [[-1, -0.5], [1, 1]];
   const room = 0.35 * Math.max(high[0] - low[0], high[1] - low[1], 0.1);
   show(low.map((x) => x - room), high.map((x) => x + room));
@@ -82,6 +83,7 @@ function assemble() {
 }
 
 function tryToAssemble() {
+  Object.assign(board, {shown: null, isStill: false, reason: "the drawing does not close"});
   try {
     assemble();
     tell("");
@@ -92,7 +94,24 @@ function tryToAssemble() {
   refresh();
 }
 
-const sentenceOf = (error) => error.message.replace(/\s*\[zd:[\w-]+\]$/, "").replace(/^./, (letter) => letter.toUpperCase());
+// The core's sentence in words of a drawing: a motor that the links stop, or loops that do not close.
+function sentenceOf(error) {
+  const motors = ofKind(board.model, "motor").filter((each) => each.drives === "speed").map(({name}) => name), row = /in row \d+ '([^'.]+)/.exec(error.message)?.[1];
+  if (/violates the constraints/.test(error.message) && motors.length && closes({...board.model, elements: board.model.elements.filter(({name}) => !motors.includes(name))})) {
+    board.reason = "its links hold each other";
+    return `${motors.join(", ")} cannot turn: the links hold each other${row && !motors.includes(row) ? `, most at ${row}` : ""}`;
+  }
+  return /position correction/.test(error.message) ? "The loops cannot close with these lengths" : plainSentence(error);
+}
+
+function closes(model) {
+  try {
+    close(create(board.core, blockOf(model, STEP), 0, true));
+    return true;
+  } catch { return false; }
+}
+
+const plainSentence = (error) => error.message.replace(/\s*\[zd:[\w-]+\]$/, "").replace(/^./, (letter) => letter.toUpperCase());
 
 // Takes a change of the drawing into the history and the address. With `mustClose` it is undone where it cannot close.
 function change(edit, {mustClose = false} = {}) {
@@ -140,8 +159,17 @@ function open(read, what) {
     return tell(`${what} is refused: ${error.message}`);
   }
   Object.assign(board, {history: [], future: [], chosen: null, pending: null, tool: "move"});
-  fitView();
-  return tryToAssemble();
+  history.replaceState(null, "", addressOf(board.model));
+  tryToAssemble();
+  recordTurn();
+  return fitView();
+}
+
+// An empty board, from which undo leads back.
+function empty() {
+  change((model) => { Object.assign(model, emptyModel()); });
+  board.chosen = null;
+  chooseTool("link");
 }
 
 // ---- what is shown beside the picture ----
@@ -150,15 +178,21 @@ const digits = (value) => (Math.abs(value) < 1e-9 ? "0" : Math.abs(value) >= 1e5
 
 function showCount() {
   const m = board.mechanism, loose = looseOf(board.model), nothing = `nothing joins ${loose.join(", ")} to the ground`;
-  if (!m) return (byId("count").textContent = ofKind(board.model, "link").length ? "moves: no, the drawing does not close" : "Draw a link to begin, or open one of these:");
+  if (!m) return (byId("count").textContent = ofKind(board.model, "link").length ? `moves: no, ${board.reason}` : "Draw a link to begin, or open one of these:");
   const {freedoms: count, rank, redundant} = freedoms(m);
   const lines = [movesOf(board.model, count), ...(loose.length ? [nothing] : []), ...(redundant.length ? [`redundant: ${redundant.join(", ")}`] : []),
                  `t = ${time(m).toFixed(2)} s, position violation ${violation(m).toExponential(1)} m; rank of the constraints ${rank} of ${m.constraints.length}`];
   return (byId("count").textContent = lines.join("\n"));
 }
 
+// Torque of a pin that has neither a motor nor damping.
+function isIdle(name) {
+  const [of, what] = name.split("."), element = elementNamed(board.model, of);
+  return what === "torque" && element?.kind === "revolute" && !element.damping && !ofKind(board.model, "motor").some(({joint}) => joint === of);
+}
+
 function showReactions() {
-  const body = byId("reactions"), m = board.mechanism, rows = m ? m.measures.filter((name) => !name.endsWith(".power")) : [];
+  const body = byId("reactions"), m = board.mechanism, rows = m ? m.measures.filter((name) => !name.endsWith(".power") && !isIdle(name)) : [];
   if (body.rows.length !== rows.length) body.replaceChildren(...rows.map(() => { const row = document.createElement("tr"); row.append(document.createElement("th"), document.createElement("td")); row.firstChild.scope = "row"; return row; }));
   rows.forEach((name, i) => {
     let text = "not defined here";
@@ -186,7 +220,12 @@ function fieldElement({label, value, choices, set, mustClose}) {
     const typed = field.value.slice(0, 40), given = typeof value === "number" ? (typed.trim() ? Number(typed.replace(",", ".")) : NaN) : typed;
     const renamed = label === "name" ? given : board.chosen, before = board.chosen;
     board.chosen = renamed;
-    if (change((model) => set(model, given), {mustClose})) return;
+    const number = [...byId("values").querySelectorAll("input, select")].indexOf(field);
+    if (change((model) => set(model, given), {mustClose})) {
+      const again = byId("values").querySelectorAll("input, select")[number];        // the next number can be typed
+      again?.focus();
+      return again?.select?.();
+    }
     board.chosen = before;
     const told = byId("told").textContent;
     showParts();
@@ -207,14 +246,14 @@ function refresh() {
   byId("play").textContent = board.isPlaying ? "Pause" : "Play";
   byId("reset").disabled = !board.moved;
   for (const button of byId("tools").children) button.setAttribute("aria-pressed", String(button.dataset.tool === board.tool));
-  byId("hint").textContent = board.moved ? "In motion: drag an end to pull the mechanism along. “Back to the drawing” edits again." : TOOLS[board.tool][2];
+  byId("hint").textContent = board.moved ? `In motion: ${ofKind(board.model, "motor").some(({drives}) => drives === "speed") ? "a motor sets its speed; one that sets a torque lets you pull" : "drag an end to pull the mechanism along"}. Press a part to see its forces.` : TOOLS[board.tool][2];
 }
 
 // ---- presses: by a mouse, a finger, or Enter at the cross ----
 
 const pressed = {
   move(target, at) {
-    const names = partsAt(board.model, at, reachOf());
+    const names = partsAt(board.model, at, reachOf(), placesOf(board.model, board.moved ? positions(board.mechanism) : null));
     board.chosen = names[(names.indexOf(board.chosen) + 1) % Math.max(names.length, 1)] ?? null;
     refresh();
   },
@@ -223,14 +262,14 @@ const pressed = {
   pin: (target) => onLink(target, (model, side, at) => addPin(model, null, side, at)),
   slot: (target) => onLink(target, addSlot),
   load: (target) => (target.side && bodyOf(target.side) !== "ground" ? change((model) => { board.chosen = addLoad(model, copyOf(target).side).name; })
-    : tell("Press an end or a point of a link")),
-  block: (target) => change((model) => { board.chosen = addBlock(model, copyOf(target), 2 * gridOf()).name; }),
+    : tell("No end or point of a link is here")),
+  block: (target) => change((model) => { board.chosen = addBlock(model, copyOf(target), 0.02 * gridOf()).name; }),
   point(target, at) {
     const from = board.pending;
-    if (!from && (!target.side || bodyOf(target.side) === "ground")) return tell("Press a link first");
+    if (!from && (!target.side || bodyOf(target.side) === "ground")) return tell("No link is here");
     if (!from) { board.pending = copyOf(target); return null; }
     board.pending = null;
-    const place = Math.hypot(at[0] - from.at[0], at[1] - from.at[1]) < reachOf() ? from.at : target.side ? target.at : at;
+    const place = Math.hypot(at[0] - from.at[0], at[1] - from.at[1]) < reachOf() ? from.at : target.at;
     return change((model) => { board.chosen = addPoint(model, bodyOf(from.side), place).name; });
   },
   motor(target, at) {
@@ -258,7 +297,7 @@ function between(target, make) {
 }
 
 function onLink(target, make) {
-  if (!target.side || bodyOf(target.side) === "ground") return tell("Press an end or a point of a link");
+  if (!target.side || bodyOf(target.side) === "ground") return tell("No end or point of a link is here");
   const has = board.model.elements.some((element) => isJoint(element) && element.first.body === "ground" && JSON.stringify(element.second) === JSON.stringify(target.side));
   if (has) return tell("This point is joined to the ground already");
   return change((model) => { board.chosen = make(model, copyOf(target).side, target.at).name; });
@@ -267,7 +306,7 @@ function onLink(target, make) {
 const targetOf = (at) => targetAt(board.model, at, reachOf(), gridOf());
 
 function press(at) {
-  if (board.moved) return tell("Go back to the drawing to change it");
+  if (board.moved) return pressed.move(null, at);
   tell("");
   pressed[board.tool](targetOf(at), at);
   return null;
@@ -279,7 +318,7 @@ const onScreen = (event) => { const box = canvas.getBoundingClientRect(); return
 const placeOf = (event) => painter.toDrawing(onScreen(event));
 
 function grip(at) {
-  const sides = ofKind(board.model, "link").flatMap(({name}) => [`${name}.start`, `${name}.end`]), placed = placesOf(board.model, board.moved ? positions(board.mechanism) : null);
+  const sides = endsOf(board.model, reachOf()), placed = placesOf(board.model, board.moved ? positions(board.mechanism) : null);
   const far = (side) => { const [x, y] = placed(side); return Math.hypot(x - at[0], y - at[1]); };
   const side = sides.sort((a, b) => far(a) - far(b))[0];
   return side && far(side) < reachOf() ? side : null;
@@ -288,6 +327,8 @@ function grip(at) {
 function down(event) {
   board.reach = event.pointerType === "touch" ? TOUCH : REACH;
   const at = placeOf(event);
+  board.fingers.set(event.pointerId, onScreen(event));
+  if (board.fingers.size > 1) { board.held = board.pending = null; return; }
   canvas.setPointerCapture(event.pointerId);
   board.cursor = at;
   board.held = {from: at, side: board.moved || board.tool === "move" ? grip(at) : null, before: JSON.stringify(board.model), isDragged: false, pan: [event.clientX, event.clientY]};
@@ -297,12 +338,24 @@ function down(event) {
 function move(event) {
   const at = placeOf(event), {held} = board;
   board.cursor = at;
+  if (board.fingers.size > 1) { pinch(event); return; }
   if (!held) return;
   if (Math.hypot(at[0] - held.from[0], at[1] - held.from[1]) * picture.scale > 5) held.isDragged = true;
   if (!held.isDragged) return;
   if (held.side && board.moved) held.target = at;
   else if (held.side) drag(held.side, at);
   else if (board.moved || board.tool === "move") panBy(held, event);
+}
+
+// Two fingers zoom about the place between them, and move it.
+function pinch(event) {
+  const measured = () => { const [a, b] = [...board.fingers.values()]; return [Math.hypot(a[0] - b[0], a[1] - b[1]) || 1, [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2]]; };
+  if (!board.fingers.has(event.pointerId)) return;
+  const [before, from] = measured();
+  board.fingers.set(event.pointerId, onScreen(event));
+  const [after, to] = measured();
+  picture.view.shift = picture.view.shift.map((each, k) => each + to[k] - from[k]);
+  zoomBy(after / before, to);
 }
 
 function panBy(held, event) {
@@ -325,8 +378,10 @@ function drag(side, at) {
 function up(event) {
   const {held} = board;
   board.held = null;
+  board.fingers.delete(event.pointerId);
+  if (event.pointerType === "touch") board.cursor = null;
   if (!held) return;
-  if (board.tool === "move" && !held.isDragged && !board.moved) press(placeOf(event));
+  if ((board.tool === "move" || board.moved) && !held.isDragged) press(placeOf(event));
   else if (held.isDragged && held.side && !board.moved) remember(held.before);
   else if (held.isDragged && board.pending && !board.moved) press(placeOf(event));
 }
@@ -376,8 +431,9 @@ function onKey(event) {
 function chooseTool(tool) {
   board.tool = tool;
   board.pending = null;
+  if (board.moved && tool !== "move") return tryToAssemble();
   tell("");
-  refresh();
+  return refresh();
 }
 
 // ---- time ----
@@ -386,6 +442,7 @@ function toggle() {
   if (!board.mechanism) return tell(byId("told").textContent || "Draw a link to begin");
   board.isPlaying = !board.isPlaying;
   board.moved ||= board.isPlaying;
+  Object.assign(board, {shown: null, isStill: false});
   board.pending = null;
   tell("");
   return refresh();
@@ -408,11 +465,11 @@ function pullEnd(m, index, end, target) {
 }
 
 // A crank that goes no further: the place, and the links that lie in one line there.
-function lockedAt(error) {
-  const m = board.mechanism, [motor] = ofKind(board.model, "motor").filter((each) => each.drives === "speed"), p = m && positions(m);
+function lockedAt(error, m = board.mechanism) {
+  const [motor] = ofKind(board.model, "motor").filter((each) => each.drives === "speed"), p = m && positions(m);
   const lines = m ? stretchedOf(board.model, p) : [], turned = motor && elementNamed(board.model, motor.joint);
-  if (!motor || !lines.length || turned.axis) return sentenceOf(error);
-  board.stretched = [...new Set(lines.flat())];
+  if (!motor || !lines.length || turned.axis) return plainSentence(error);
+  if (m === board.mechanism) board.stretched = [...new Set(lines.flat())];
   const crank = ofKind(board.model, "link").findIndex((link) => link.name === bodyOf(turned.second));
   return `${motor.name} can turn ${bodyOf(turned.second)} no further than ${Math.round(p[3 * crank + 2] * 180 / Math.PI)}°: ${lines.map((pair) => pair.join(" and ")).join(", ")} lie in one line there. `
     + "With a shorter crank it may turn fully.";
@@ -421,14 +478,14 @@ function lockedAt(error) {
 // ---- over a turn: paths of points, and graphs of the chosen part ----
 
 const SAMPLES = 360, FREE = 2;      // of a turn; s, where no motor has a speed
-const NOTHING = {to: FREE, lines: [], paths: [], told: ""}, turnOf = () => board.turn ?? NOTHING, linesOf = (name) => turnOf().lines.filter((line) => line.of === name);
+const NOTHING = {to: FREE, lines: [], paths: [], poses: [], told: ""}, turnOf = () => board.turn ?? NOTHING, linesOf = (name) => turnOf().lines.filter((line) => line.of === name);
 
 // One turn of the first motor with a speed, otherwise two seconds, by a mechanism of its own: as far as it gets.
 function recordTurn() {
-  const motor = ofKind(board.model, "motor").find((each) => each.drives === "speed" && each.law), turn = {to: FREE, lines: [], paths: [], told: ""};
+  const motor = ofKind(board.model, "motor").find((each) => each.drives === "speed" && each.law), turn = {to: FREE, lines: [], paths: [], poses: [], told: "", isTurn: false};
   board.turn = turn;
   if (!board.mechanism) return;
-  if (motor && !elementNamed(board.model, motor.joint).axis) turn.to = 2 * Math.PI / Math.abs(motor.law);
+  if (motor && !elementNamed(board.model, motor.joint).axis) [turn.to, turn.isTurn] = [2 * Math.PI / Math.abs(motor.law), true];
   const count = Math.max(1, Math.ceil(turn.to / SAMPLES / STEP)), step1 = turn.to / SAMPLES / count;
   let m = null;
   const points = ofKind(board.model, "point"), add = (of, name, unitOf, measured) => turn.lines.push({of, name, unit: unitOf, measured, values: []});
@@ -445,10 +502,11 @@ function recordTurn() {
     for (let i = 0; i <= SAMPLES; i++) {
       for (const line of turn.lines) line.values.push(line.measured());
       points.forEach((point, k) => turn.paths[k].push(at(point)));
+      turn.poses.push(Array.from(positions(m)));
       if (i < SAMPLES) step(m, count);
     }
-  } catch {
-    turn.told = "The graph ends where the motion does.";
+  } catch (error) {
+    turn.told = `The graph ends where the motion does. ${m && turn.isTurn ? lockedAt(error, m) : ""}`;
     for (const line of turn.lines) while (line.values.length <= SAMPLES) line.values.push(NaN);
   } finally {
     if (m) close(m);
@@ -473,12 +531,35 @@ function table() {
   return [["t [s]", ...lines.map((line) => `${line.name} [${line.unit}]`)].map(quoted).join(), ...rows, ""].join("\n");
 }
 
+// Lines of the chosen part: all of a unit, or one of them.
+function shownLines() {
+  const lines = linesOf(board.chosen), what = byId("turn-what").value, [one] = lines.filter(({name}) => name === what);
+  return one ? [one] : lines.filter((line) => line.unit === lines[0].unit);
+}
+
+// Largest of the last line that is shown, the size of a vector.
+function largestOf(line) {
+  const sizes = line.values.map((x) => (Number.isFinite(x) ? Math.abs(x) : -1)), i = sizes.indexOf(Math.max(...sizes));
+  return `largest ${line.name}: ${digits(line.values[i])} ${line.unit} at ${digits(turnOf().to * i / SAMPLES)} s`;
+}
+
+// The place of the pointer over the graph: the mechanism is shown there, with its values.
+function lookAt(event) {
+  const [left, right] = byId("turn").drawn.area, share = (event.clientX - byId("turn").getBoundingClientRect().left - left) / (right - left);
+  const {length} = turnOf().poses;
+  if (length) board.shown = Math.min(Math.max(Math.round(share * SAMPLES), 0), length - 1);
+}
+
 function showTurn() {
-  const lines = linesOf(board.chosen), first = lines[0]?.unit, {to, told} = turnOf(), now = board.mechanism && board.moved ? time(board.mechanism) % to : 0;
+  const lines = linesOf(board.chosen), {to, told, isTurn} = turnOf(), what = byId("turn-what"), names = ["", ...lines.map(({name}) => name)];
+  const now = board.shown !== null ? to * board.shown / SAMPLES : board.mechanism && board.moved ? time(board.mechanism) % to : 0;
+  byId("turn-title").textContent = isTurn ? "Over a turn" : `Over ${FREE} s`;
+  what.parentElement.hidden = !lines.length;
+  if ([...what.options].map(({value}) => value).join() !== names.join()) what.replaceChildren(...names.map((name) => new Option(name || "all of a kind", name)));
   byId("turn").hidden = !lines.length;
   byId("csv").disabled = !turnOf().lines.length;
-  byId("turn-hint").textContent = lines.length ? told : `Choose a point, a pin, a motor or a link. ${told}`;
-  if (lines.length) graph(byId("turn"), picture, lines.filter((line) => line.unit === first), {from: 0, to, now});
+  byId("turn-hint").textContent = lines.length ? `${told} ${largestOf(shownLines().at(-1))}`.trim() : `Choose a point, a pin, a motor or a link. ${told}`;
+  if (lines.length) graph(byId("turn"), picture, shownLines(), {from: 0, to, now});
 }
 
 // ---- pictures ----
@@ -493,7 +574,7 @@ function noted(target) {
 }
 
 function draw() {
-  const p = board.moved && board.mechanism ? positions(board.mechanism) : null, element = board.chosen && elementNamed(board.model, board.chosen);
+  const p = turnOf().poses[board.shown] ?? (board.moved && board.mechanism ? positions(board.mechanism) : null), element = board.chosen && elementNamed(board.model, board.chosen);
   film.pin = PIN / picture.scale;
   film.arrow = 70 / picture.scale;
   Object.assign(layer, shapesOf(board.model, p, film.pin), {order: null, arrows: [], paths: turnOf().paths.filter((path) => path.length > 1)});
@@ -501,8 +582,8 @@ function draw() {
   picture.view.chosen = board.chosen;
   picture.draw("");
   for (const name of board.stretched) picture.mark(name);
-  picture.words(`${+(5 * gridOf()).toPrecision(2)} m a square`, 8, canvas.clientHeight - 8);
-  if (!board.cursor || board.moved) return;
+  picture.words(`${+(5 * gridOf()).toPrecision(2)} m a square`, canvas.clientWidth - 100, canvas.clientHeight - 8);
+  if (!board.cursor || board.moved || board.shown !== null) return;
   const target = board.pending || board.tool !== "move" ? targetOf(board.cursor) : {at: board.cursor};
   if (board.pending) picture.thread(board.pending.at, painter.toScreen(target.at));
   picture.cursor(target.at, noted(target), Boolean(target.side));
@@ -512,8 +593,9 @@ function draw() {
 function pushForce(element, placed) {
   const most = Math.max(1e-9, ...linesOf(element.name).filter((line) => line.unit === "N").flatMap((line) => line.values.filter(Number.isFinite).map(Math.abs)));
   let force = [];
-  try { force = [...read(board.mechanism, `${element.name}.force`)]; } catch { /* a singular pose */ }
-  if (force.length !== 2) return;
+  const over = (axis) => linesOf(element.name).find((line) => line.name === `${element.name}.force.${axis}`)?.values[board.shown];
+  try { force = board.shown === null ? [...read(board.mechanism, `${element.name}.force`)] : [over("x"), over("y")]; } catch { /* a singular pose */ }
+  if (force.length !== 2 || !force.every(Number.isFinite)) return;
   const scale = Math.max(most, Math.hypot(...force));
   layer.at.push(placed(element.second), force.map((x) => x / scale));
   layer.arrows = [{name: element.name, at: layer.at.length - 2, to: layer.at.length - 1, scale}];
@@ -527,7 +609,7 @@ function next(now) {
     try {
       advanceBy(elapsed * byId("speed").value, begin);
       showCount();
-      if (board.pictures % 6 === 0) showReactions();
+      if (board.pictures % 6 === 0 || !board.isPlaying) showReactions();
     } catch (error) {
       board.isPlaying = false;
       refresh();
@@ -549,6 +631,7 @@ function saveFile(ending, text) {
   link.download = `${board.model.name}.${ending}`;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  byId("hint").textContent = `${link.download} is saved.${ending === "json" ? ` In Python: m = zd.load("${link.download}")` : ""}`;
 }
 
 async function copyText(text, what) {
@@ -572,11 +655,15 @@ function listen() {
   canvas.addEventListener("pointerdown", down);
   canvas.addEventListener("pointermove", move);
   canvas.addEventListener("pointerup", up);
-  canvas.addEventListener("pointercancel", () => { board.held = null; });
+  for (const kind of ["pointercancel", "lostpointercapture"]) canvas.addEventListener(kind, (event) => { board.held = null; board.fingers.delete(event.pointerId); });
+  canvas.addEventListener("pointerleave", () => { board.cursor = null; });
+  byId("turn").addEventListener("pointermove", (event) => { if (!board.isStill || event.buttons) lookAt(event); });
+  byId("turn").addEventListener("pointerdown", (event) => { board.isStill = true; board.isPlaying = false; lookAt(event); refresh(); });
+  byId("turn").addEventListener("pointerleave", () => { if (!board.isStill) board.shown = null; });
   canvas.addEventListener("wheel", (event) => { event.preventDefault(); zoomBy(Math.exp(-event.deltaY / 400), onScreen(event)); }, {passive: false});
   document.addEventListener("keydown", onKey);
   addEventListener("hashchange", () => open(() => modelOfAddress(location.hash), "The address"));
-  for (const [id, act] of Object.entries({play: toggle, reset: tryToAssemble, undo: () => undo(), redo, fit: fitView, save: () => saveFile("json", JSON.stringify(board.model, null, 1)), csv: () => saveFile("csv", table()),
+  for (const [id, act] of Object.entries({play: toggle, reset: tryToAssemble, undo: () => undo(), redo, new: empty, fit: fitView, save: () => saveFile("json", JSON.stringify(board.model, null, 1)), csv: () => saveFile("csv", table()),
     copy: () => copyText(pythonOf(board.model), "The Python text"), link: () => copyText(location.href, "The address")})) byId(id).addEventListener("click", act);
   byId("parts").addEventListener("change", (event) => { board.chosen = event.target.value || null; refresh(); });
   byId("values").addEventListener("submit", (event) => event.preventDefault());
@@ -596,7 +683,7 @@ listen();
 for (const [name, model] of EXAMPLES) {
   const button = document.createElement("button");
   Object.assign(button, {type: "button", textContent: name});
-  button.addEventListener("click", () => { open(() => checkedModel(model), name); history.replaceState(null, "", addressOf(board.model)); });
+  button.addEventListener("click", () => { open(() => checkedModel(model), name); });
   byId("examples").append(button);
 }
 if (globalThis.zerodriftCore) board.core = await load(await unpacked(globalThis.zerodriftCore));

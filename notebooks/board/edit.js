@@ -57,7 +57,7 @@ export function addLoad(model, side) {
   return add(model, {kind: "force", point: side, along: [0, -1], frame: "ground", value: 10});
 }
 
-// A block with mass on a line of the ground, pinned to a side where there is one.
+// A block on a line of the ground, with its mass where it is pressed: a short link; pinned to a side where there is one.
 export function addBlock(model, {side, at}, size) {
   const block = add(model, {kind: "link", name: newName(model, "block"), start: [...at], end: [at[0] + size, at[1]], mass: 1});
   if (side) addPin(model, side, `${block.name}.start`);
@@ -142,35 +142,42 @@ export function takePoses(model, p) {
   for (const joint of ofKind(model, "slot", "prismatic")) if (joint.first.body === "ground") joint.first.local = [...drawnPlace(model, joint.second)];
 }
 
-// What is nearest to a place: an end of a link or a pin of one, then a point on a link, then the grid.
+// Ends of links; of one that is shorter than can be aimed at, as a block, its start.
+export const endsOf = (model, reach) => ofKind(model, "link").flatMap((link) => (lengthOf(link) < reach / 4 ? ["start"] : ["start", "end"]).map((end) => `${link.name}.${end}`));
+
+// What is nearest to a place: an end of a link or a pin of one, then the middle of a link or a grid along it, then the grid.
 export function targetAt(model, at, reach, grid) {
   const far = (place) => Math.hypot(place[0] - at[0], place[1] - at[1]);
-  const sides = ofKind(model, "link").flatMap(({name}) => [`${name}.start`, `${name}.end`])
-    .concat(model.elements.filter(isJoint).flatMap(({first, second}) => [first, second]), ofKind(model, "point").map(({body, local}) => ({body, local})));
+  const sides = endsOf(model, reach).concat(model.elements.filter(isJoint).flatMap(({first, second}) => [first, second]), ofKind(model, "point").map(({body, local}) => ({body, local})));
   const points = sides.map((side) => ({side, at: drawnPlace(model, side)})).filter(({at: place}) => far(place) < reach);
   points.sort((a, b) => far(a.at) - far(b.at) || (bodyOf(a.side) === "ground") - (bodyOf(b.side) === "ground"));
   if (points.length) return points[0];
   for (const link of ofKind(model, "link")) {
     const [x, y] = turned(-angleOf(link), [at[0] - link.start[0], at[1] - link.start[1]]);
     if (Math.abs(y) > reach / 2 || x < 0 || x > lengthOf(link)) continue;
-    const side = {body: link.name, local: [+x.toPrecision(3), 0]};
+    const half = lengthOf(link) / 2, along = Math.abs(x - half) < reach / 2 ? half : Math.round(x / grid) * grid;
+    const side = {body: link.name, local: [+Math.min(along, lengthOf(link)).toPrecision(6), 0]};
     return {side, at: drawnPlace(model, side)};
   }
   return {side: null, at: at.map((each) => +(Math.round(each / grid) * grid).toFixed(6))};
 }
 
 // Names of the parts at a place, joints and springs before links.
-export function partsAt(model, at, reach) {
+export function partsAt(model, at, reach, placed = (side) => drawnPlace(model, side)) {
   const far = (place) => Math.hypot(place[0] - at[0], place[1] - at[1]);
-  const middle = ({first, second}) => [0, 1].map((k) => (drawnPlace(model, first)[k] + drawnPlace(model, second)[k]) / 2);
-  const joints = model.elements.filter((element) => isJoint(element) && far(drawnPlace(model, element.second)) < reach);
+  const middle = ({first, second}) => [0, 1].map((k) => (placed(first)[k] + placed(second)[k]) / 2);
+  const joints = model.elements.filter((element) => isJoint(element) && far(placed(element.second)) < reach);
   const motors = ofKind(model, "motor").filter((motor) => joints.some((joint) => joint.name === motor.joint));
   const springs = ofKind(model, "spring").filter((spring) => far(middle(spring)) < reach);
-  const links = ofKind(model, "link").filter((link) => {
-    const [x, y] = turned(-angleOf(link), [at[0] - link.start[0], at[1] - link.start[1]]);
-    return Math.abs(y) < reach && x > -reach && x < lengthOf(link) + reach;
+  const left = (a, b) => (b[0] - a[0]) * (at[1] - a[1]) - (b[1] - a[1]) * (at[0] - a[0]);
+  const links = ofKind(model, "link").filter(({name}) => {
+    const [a, b] = [placed(`${name}.start`), placed(`${name}.end`)], long = Math.hypot(b[0] - a[0], b[1] - a[1]) || 1;
+    const along = ((b[0] - a[0]) * (at[0] - a[0]) + (b[1] - a[1]) * (at[1] - a[1])) / long;
+    const corners = model.elements.flatMap(sidesOf).filter((side) => side.body === name && side.local[1]).map(placed);      // of a plate
+    return (Math.abs(left(a, b)) / long < reach && along > -reach && along < long + reach)
+      || corners.some((c) => [left(a, b), left(b, c), left(c, a)].every((each, i, all) => each * all[0] > 0));
   });
-  const points = [...ofKind(model, "point"), ...ofKind(model, "force")].filter((element) => far(drawnPlace(model, element.point ?? element)) < reach);
+  const points = [...ofKind(model, "point"), ...ofKind(model, "force")].filter((element) => far(placed(element.point ?? element)) < reach);
   return [...points, ...joints, ...motors, ...springs, ...links].map(({name}) => name);
 }
 

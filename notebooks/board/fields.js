@@ -38,6 +38,11 @@ function jointFields(model, joint) {
   if (joint.axis) found.push(field("angle of the line, °", shown(Math.atan2(joint.axis[1], joint.axis[0]) / RAD), (changed, value) => {
     elementNamed(changed, name).axis = [Math.cos(needed(value) * RAD), Math.sin(value * RAD)];
   }));
+  for (const key of ["first", "second"]) {
+    const side = joint[key];
+    if (side.body && side.body !== "ground" && !side.local[1]) found.push(field(`along ${side.body}, m`, shown(side.local[0]),
+      (changed, value) => { elementNamed(changed, name)[key].local[0] = needed(value); }, {mustClose: true}));
+  }
   if (joint.damping !== undefined) found.push(numberField(joint.kind === "revolute" ? "damping, N m s/rad" : "damping, N s/m", name, "damping")(model));
   return found;
 }

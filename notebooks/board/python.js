@@ -37,6 +37,6 @@ m = zd.Mechanism(${text(model.name)}, gravity=${pair(model.gravity)})
 ${model.elements.map((element) => LINES[element.kind](element, model)).join("\n")}
 
 sol = zd.simulate(m, ${number(span)}, step=${number(step)})
-zd.view(sol)
+zd.view(sol).save(${text(`${model.name}.html`)})      # a film; in a notebook zd.view(sol) shows it
 `;
 }

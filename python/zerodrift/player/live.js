@@ -307,6 +307,7 @@ function addSlider({name, kind, least, most, value, unit: unitOf, factor}) {
     }
     show();
     reshape();
+    for (const each of ways) each.values = [];      // paths of another mechanism
   });
   show();
   live.sliders.push(show);

@@ -310,7 +310,7 @@ const shadow = points => {
 const shades = new Set(["bar", "plate", "disc", "ring", "box", "rod"]);
 
 const anchor = points => points.length > 1 ? points[0].map((x, i) => (x + points[1][i]) / 2) : points[0];
-const single = new Set(["pin", "ball", "weld", "ground", "sleeve", "slider", "block", "wheel", "gear", "patch", "motor", "drive", "disc", "particle", "dot", "bushing", "blade", "mark", "stop"]);
+const single = new Set(["pin", "ball", "weld", "ground", "sleeve", "slider", "block", "wheel", "gear", "patch", "motor", "drive", "disc", "particle", "dot", "bushing", "blade", "mark", "stop", "load", "load_symbol", "moment"]);
 const joints = new Set(["pin", "ball", "weld", "sleeve", "dot", "particle", "mark"]);
 const back = ["ring", "gear", "cam", "ground", "wall", "rail", "road", "stop", "wheel", "disc", "coupled", "guide", "link", "curve", "groove", "rod", "cylinder", "damper", "spring", "slider", "rack", "block", "bushing", "weld", "particle", "roller", "spiral", "pin"];
 const draw = note => {
@@ -401,7 +401,8 @@ const cursor = (at, note, isSnapped) => {
   pen.beginPath();
   pen.arc(x, y, isSnapped ? 10 : 5, 0, 2 * Math.PI);
   stroke(isSnapped ? tones.accent : tones.force, isSnapped ? 3 : 1.5);
-  words(note, Math.min(x + 14, width - 130), Math.max(y - 12, 14), tones.force);
+  pen.font = "12px system-ui, sans-serif";
+  words(note, Math.max(Math.min(x + 14, width - pen.measureText(note).width - 6), 4), y + 26 > height - 4 ? y - 12 : y + 26, tones.force);
 };
 readColours();
 return {view, begin, mark, cursor, words, tones, fit, frame, draw, ring, thread, project, unproject, place, turnBy, zoomBy, sub, cross, length, get spots() { return spots; }, get scale() { return scale; }};
