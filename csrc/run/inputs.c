@@ -43,6 +43,32 @@ zd_held_inputs zd_inputs_create(zd_arena *arena, const zd_inputs *inputs, const 
     return held;
 }
 
+static size_t count_numbers(const zd_input_slot *place) { return place->is_speed ? 3 : 1; }
+
+size_t zd_inputs_numbers(const zd_inputs *inputs)
+{
+    size_t count = 0;
+    for (int k = 0; inputs && k < inputs->places; k++) count += count_numbers(inputs->place + k);
+    return count;
+}
+
+void zd_inputs_save(const zd_inputs *inputs, double *to)
+{
+    for (int k = 0; inputs && k < inputs->places; k++) {
+        memcpy(to, inputs->place[k].place, count_numbers(inputs->place + k) * sizeof *to);
+        to += count_numbers(inputs->place + k);
+    }
+}
+
+void zd_inputs_restore(const zd_inputs *inputs, const double *from)
+{
+    for (int k = 0; inputs && k < inputs->places; k++) {
+        memcpy(inputs->place[k].place, from, count_numbers(inputs->place + k) * sizeof *from);
+        from += count_numbers(inputs->place + k);
+    }
+    if (inputs) zd_inputs_derive(inputs);
+}
+
 static int is_refused(const zd_inputs *inputs)
 {
     for (int i = 0; i < inputs->count; i++)

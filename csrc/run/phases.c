@@ -95,7 +95,7 @@ zd_phases *zd_phases_create(const zd_system *full, const zd_settings *settings)
 }
 
 typedef struct phase_making {
-    const zd_system *full;
+    const zd_phases *phases;
     const signed char *state;
 } phase_making;
 
@@ -106,8 +106,22 @@ static void *make_phase(zd_arena *arena, const void *of)
     self->next = NULL;
     self->is_open = 0;
     self->plan = zd_arena_bytes(arena, sizeof *self->plan);
-    self->of = zd_phase_system_create(arena, it->full, it->state);
+    self->of = zd_phase_system_create(arena, it->phases->full, it->state);
+    self->opened = zd_arena_doubles(arena, 1 + (size_t)it->phases->full->nq + (size_t)it->phases->full->nv
+                                               + zd_inputs_numbers(it->phases->settings.inputs));
     return here;
+}
+
+/* Saves images of a phase and of its plan, if it is open; nonzero: out of memory */
+static int save_images(zd_phase *phase)
+{
+    int failed = zd_memory_save(phase->memory);
+    if (failed) return ZD_NO_MEMORY;
+    ((zd_phase *)(void *)phase->memory->image)->next = NULL;    /* phases may be opened in another order than they were found */
+    if (!phase->is_open) return ZD_DONE;
+    failed = zd_memory_save(phase->plan->memory);
+    for (zd_memory *block = phase->plan->motion.store.last; block && !failed; block = block->previous) failed = zd_memory_save(block);
+    return failed ? ZD_NO_MEMORY : ZD_DONE;
 }
 
 zd_phase *zd_phases_find(zd_phases *self, const signed char *state)
@@ -115,7 +129,11 @@ zd_phase *zd_phases_find(zd_phases *self, const signed char *state)
     zd_phase **last = &self->first;
     for (; *last; last = &(*last)->next)
         if (!memcmp((*last)->of->state, state, self->full->groups)) return *last;
-    return *last = zd_store_create(&self->store, make_phase, &(phase_making){self->full, state});
+    zd_phase *phase = zd_store_create(&self->store, make_phase, &(phase_making){self, state});
+    if (!phase) return NULL;
+    phase->memory = self->store.last;
+    if (self->has_images && save_images(phase)) return NULL;
+    return *last = phase;
 }
 
 void zd_phases_free(zd_run *run)
@@ -187,10 +205,18 @@ static void pass_on(zd_run *to, const zd_run *from)
     memcpy(to->watch.acted, from->watch.acted, 2 * to->watch.events->count * sizeof *to->watch.acted);
 }
 
-/* Opens the plan of a phase in place of the run, of which `before` is a copy. */
-static int open_plan(zd_run *run, zd_phase *to, zd_run *before)
+static void note_opening(const zd_phases *self, double *opened)
+{
+    *opened = self->at.t;
+    zd_copy_all(self->full->nq, self->at.p, opened + 1);
+    zd_copy_all(self->full->nv, self->at.v, opened + 1 + self->full->nq);
+    zd_inputs_save(self->settings.inputs, opened + 1 + self->full->nq + self->full->nv);
+}
+
+int zd_phase_open(zd_run *run, zd_phase *to, const zd_run *before)
 {
     zd_phases *self = before->phases;
+    note_opening(self, to->opened);
     int status;
     char message[ZD_MESSAGE] = "";
     zd_run *opened = zd_run_open(run, &to->of->system, &self->settings, self->at.t, self->at.p, self->at.v, &status, message, ZD_MESSAGE);
@@ -202,8 +228,10 @@ static int open_plan(zd_run *run, zd_phase *to, zd_run *before)
         return status ? status : ZD_NO_MEMORY;
     }
     run->phases = self;
+    run->start = before->start;
     zd_phase_use(run, to);
-    return ZD_DONE;
+    *to->plan = *run;
+    return self->has_images ? save_images(to) : ZD_DONE;
 }
 
 void zd_phase_use(zd_run *run, zd_phase *phase)
@@ -280,7 +308,7 @@ int zd_phase_enter(zd_run *run, const signed char *state, int prepares)
         zd_run *before = self->present->plan;
         *before = *run;
         if (to->is_open) *run = *to->plan, zd_phase_use(run, to);
-        else status = open_plan(run, to, before);
+        else status = zd_phase_open(run, to, before);
         if (status) return status;
         pass_on(run, before);
     }

@@ -9,6 +9,8 @@ typedef struct zd_phase {
     zd_phase_system *of;
     zd_run *plan;           /* copy of the run while this phase is not the present one */
     int is_open;            /* true if the plan exists */
+    zd_memory *memory;      /* its own, without that of the plan */
+    double *opened;         /* t, p (nq,), v (nv,) and numbers of inputs at which the plan was opened */
 } zd_phase;
 
 struct zd_phases {
@@ -29,6 +31,7 @@ struct zd_phases {
     int *occurs;            /* (own events,) true at the instant of the change */
     int changes;            /* number of changes at one instant */
     double t_changes;       /* s: that instant */
+    int has_images;         /* true if the state can be saved: what is opened keeps an image */
 };
 
 /* Phases of a system with groups; the first one is without any contact. NULL without memory. */
@@ -38,6 +41,8 @@ void zd_phases_free(zd_run *run);
 zd_phase *zd_phases_find(zd_phases *self, const signed char *state);
 /* Makes a phase, whose plan is in place, the present one. */
 void zd_phase_use(zd_run *run, zd_phase *phase);
+/* Opens the plan of a phase at phases->at in place of the run, of which `before` is a copy. */
+int zd_phase_open(zd_run *run, zd_phase *phase, const zd_run *before);
 /* Enters a phase at the state phases->at; `prepares`: alone for solutions there, not for a step. */
 int zd_phase_enter(zd_run *run, const signed char *state, int prepares);
 /* True if the integrator applies to all phases of a system. */

@@ -103,6 +103,10 @@ zd_held_inputs zd_inputs_create(zd_arena *arena, const zd_inputs *inputs, const 
 int zd_inputs_have_speeds(const zd_inputs *inputs);
 /* Reads the inputs at the start of an advance; ZD_BAD_INPUT leaves the ones before. */
 int zd_inputs_read(zd_run *run);
+/* Number of the doubles at the places of inputs; these copied from there, and written to them with what is derived from them. */
+size_t zd_inputs_numbers(const zd_inputs *inputs);
+void zd_inputs_save(const zd_inputs *inputs, double *to);
+void zd_inputs_restore(const zd_inputs *inputs, const double *from);
 /* Writes new inputs, none of which is a speed, to their places. */
 void zd_inputs_write(zd_run *run);
 /* Ends the ramps of speeds that were followed, begins new ones, or makes their jumps; limits the step to the end of a ramp. */

@@ -38,6 +38,11 @@ def test_cheap_ones_continue_for_many_steps():
     assert_same(cheap, 3)
 
 
+def test_copies_of_runs_with_contacts_continue_with_the_same_bits():
+    """Phases are opened before and after the state, and entered again."""
+    assert_same([(seed, seed % 2, seed % len(zd.formulations())) for seed in range(draws(10, 200))], draws(6, 120))
+
+
 @pytest.mark.parametrize("options", [
     {"step": 0.004}, {"step": 0.004, "closed_form": False}, {"rtol": 1e-10, "atol": 1e-12, "max_step": 0.01},
     {"integrator": "radau", "step": 0.01}, {"step": 0.01, "t_eval": np.linspace(0.001, 0.19, 99)},

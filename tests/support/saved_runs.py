@@ -16,6 +16,7 @@ import warnings
 import numpy as np
 
 import zerodrift as zd
+from contact.random_scenes import mechanism_of, scene_of
 from every_model import IN_SPACE, MECHANISMS, MODELS
 from few_bodies import cart_pole, driven_four_bar, two_links
 from random_symbolic import random_system
@@ -76,11 +77,16 @@ def random_options(rng, system):
     return chosen | ({"rtol": 1e-7, "atol": 1e-9} if adaptive else {"step": 0.004})
 
 
+def start_of(system):
+    """A consistent start; a system with contacts has one, which is not assembled."""
+    return (system.p0, system.v0) if system._groups else zd.assemble(system, system.p0, system.v0)
+
+
 class Case:
     """Runs of a system to an end."""
 
     def __init__(self, system, options, duration=DURATION, events=None):
-        self.system, self.start = system, zd.assemble(system, system.p0, system.v0)
+        self.system, self.start = system, start_of(system)
         self.ready = prepared(system, (0.0, duration), *self.start, events, None, None, settings.Arguments(**options))
         self.core = self.ready.core
 
@@ -135,7 +141,7 @@ class OpenCase:
 
     def __init__(self, system, options, drive, seed, pace=1):
         self.system, self.seed, self.drive, self.options, self.pace = system, seed, drive, options, pace
-        self.start = zd.assemble(system, system.p0, system.v0)
+        self.start = start_of(system)
         self.begun()
 
     def begun(self):
@@ -206,12 +212,28 @@ def driven_case(number, pace):
     return OpenCase(driven_four_bar(**{drive[6:]: 0.0}).system(), {**options, "inputs": [drive]}, drive, number, pace), PARTS // 4
 
 
+def contact_case(seed, step, formulation):
+    """A scene with contacts, whose record or open run is saved after some of its changes of phase."""
+    rng, m = np.random.default_rng(seed), mechanism_of(scene_of(seed)[1])
+    system = m.system("joint" if rng.integers(2) else "absolute")
+    options = {"formulation": list(zd.formulations())[formulation], **({"step": 1e-3} if step else {"rtol": 1e-8, "atol": 1e-10})}
+    events = random_events(rng, system) if rng.integers(2) else None
+    if rng.integers(2):
+        return OpenCase(system, options, None, seed, 60), int(rng.integers(LAST))
+    if step:
+        options["t_eval"] = np.linspace(0.01, 1.0, 80)
+    return Case(system, options, 1.0, events), int(rng.integers(20, 60))
+
+
 def case_of(key):
-    """A random case, or one by arguments of `driven_case`, and the moment at which its state is saved; None: none suits."""
+    """A random case, or one by arguments of `driven_case` or `contact_case`, and the moment at which its state is saved.
+
+    None: none suits.
+    """
     rng = np.random.default_rng(key)
     try:
         if isinstance(key, tuple):
-            return driven_case(*key)
+            return driven_case(*key) if len(key) == 2 else contact_case(*key)
         system, drive = random_made(rng)
         if system.nv > MANY or system.p0 is None or system.v0 is None:
             return None

@@ -161,7 +161,9 @@ class Run:
         self._changed = 0
         self.transitions: list[tuple[float, list[int], list[float], list[float]]] = []
         self._changes = lib.zd_run_transition(run)
-        self._note_changes()
+        if self._note_changes() and saved:
+            state, none = self.transitions[0][1], [0.0] * core.c.groups
+            self.transitions = [(lib.zd_run_time(run), state, none, none)]
 
     def begin_saving(self, p0: np.ndarray, v0: np.ndarray) -> None:
         """Allows `save`: called before the first step of a run from this start."""

@@ -195,9 +195,6 @@ class Run(Stepping):
         return self._saved()
 
     def _saved(self) -> bytes:
-        if self.system._groups:
-            raise WrongValue("a run must have constraints that are active at all times to be saved or copied, and "
-                             f"{self.system.name} has contacts, stops or joints that switch", "not-available")
         return saved(self._ready, self._core, [each.state() for each in self._keeping()], self.system)
 
     def restore(self, state: bytes) -> None:
