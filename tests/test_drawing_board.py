@@ -5,11 +5,12 @@ what does not fit is refused.
 import base64
 import functools
 import http.server
-import importlib.util
+import importlib
 import json
 import re
 import shutil
 import subprocess
+import sys
 import threading
 
 import numpy as np
@@ -19,8 +20,9 @@ import tolerances as tol
 import zerodrift as zd
 from browser import Browser, needs_chromium
 from support import ROOT
-from zerodrift import errors
+from zerodrift import errors, gallery
 from zerodrift.export import wasm
+from zerodrift.mechanisms.files import from_json
 from zerodrift.mechanisms.files.to_json import described
 
 BOARD = ROOT / "notebooks" / "board"
@@ -28,9 +30,9 @@ NODE = shutil.which("node")
 needs_node = pytest.mark.skipif(not NODE, reason="there is no node")
 LARGEST = 1_000_000     # bytes of the page with the core
 
-spec = importlib.util.spec_from_file_location("live", ROOT / "notebooks" / "site" / "live.py")
-live = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(live)
+sys.path.insert(0, str(ROOT / "notebooks" / "site"))
+boards, live = (importlib.import_module(name) for name in ("boards", "live"))
+sys.path.pop(0)
 
 
 def quick_return():
@@ -135,6 +137,28 @@ def test_its_python_text_makes_its_file_and_runs(name, tmp_path, monkeypatch):
             near = pytest.approx(value, abs=1e-15) if key == "axis" else value     # turned there and back
             assert theirs[key] == near, key
     assert made == {key: value for key, value in again.items() if key != "elements"}
+
+
+ON_BOARD = {each.name: each for each in gallery.exhibits() if boards.boarded(each.made())}
+
+
+@needs_node
+def test_models_of_the_gallery_are_opened_by_the_board(tmp_path):
+    assert {"jansen", "hoecken", "watt", "klann", "slider_crank", "four_bar", "quick_return", "toggle_press"} <= ON_BOARD.keys()
+    found = {name: boards.boarded(each.made()) for name, each in ON_BOARD.items()}
+    (tmp_path / "all.json").write_text(json.dumps(list(found.values())))
+    again, = in_node("""tell(JSON.parse(readFileSync("all.json", "utf8")).map(each => model.checkedModel(each)));""", tmp_path)
+    assert again == list(found.values())
+
+
+@pytest.mark.parametrize(("name", "point"), [("jansen", "F"), ("hoecken", "P"), ("klann", "F"), ("chebyshev_lambda", "P")])
+def test_points_of_driven_models_on_the_board_have_the_same_paths(name, point):
+    """Links that are uniform move by the same geometry."""
+    m = ON_BOARD[name].made()
+    made = from_json.mechanism(zd.Mechanism, boards.boarded(m), name)
+    ours, theirs = (zd.simulate(each, 0.5, step=2e-3)[f"{point}.position"] for each in (m, made))
+    assert np.ptp(theirs, axis=0).max() > 0.05
+    np.testing.assert_allclose(ours, theirs, atol=1e-8)
 
 
 def unclosed():
@@ -252,7 +276,7 @@ def told(browser):
 
 
 def address(mechanism):
-    return live.address(mechanism).partition("#")[2]
+    return boards.address(described(mechanism._drawing())).partition("#")[2]
 
 
 def on_screen(browser, x, y):

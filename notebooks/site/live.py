@@ -9,6 +9,8 @@ import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from boards import address
+
 import zerodrift as zd
 from zerodrift import gallery
 from zerodrift.errors import CompilationFailed
@@ -134,13 +136,7 @@ def drawn() -> dict[str, zd.Mechanism]:
     return {each.name: each for each in (bar, slider, watt, pendulum)}
 
 
-def address(mechanism: zd.Mechanism) -> str:
-    """Address on which the drawing board opens a mechanism."""
-    data = json.dumps(described(mechanism._drawing()), separators=(",", ":")).encode()
-    return "../board.html#m=" + base64.urlsafe_b64encode(data).decode("ascii").rstrip("=")
-
-
 def boards() -> Iterable[str]:
     """Links to the drawing board with mechanisms on it."""
-    links = [f'<a href="{address(each)}">{name}</a>' for name, each in drawn().items()]
+    links = [f'<a href="{address(described(each._drawing()))}">{name}</a>' for name, each in drawn().items()]
     yield f"<p>To begin with: {', '.join(links)}.</p>"

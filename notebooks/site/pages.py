@@ -9,6 +9,7 @@ import warnings
 from collections.abc import Iterable
 from pathlib import Path
 
+import boards
 import live
 import matplotlib
 from fontTools import subset
@@ -216,8 +217,9 @@ Below it are the position violation and the energy error of the run; the core si
 ```{{raw}} html
 <iframe src="../../live/{name}.html" title="{title}, simulated" loading="lazy"
 style="width:100%;height:560px;border:0"></iframe>
-```
+{board}```
 """
+BOARD = '<p><a href="../{address}">Open in the drawing board</a>, to change it: with uniform links, as drawn.</p>\n'
 
 
 def model(exhibit: gallery.Exhibit, graphs: dict[str, str]) -> Iterable[str]:
@@ -228,11 +230,13 @@ def model(exhibit: gallery.Exhibit, graphs: dict[str, str]) -> Iterable[str]:
         words = str(exhibit.made())
     text = inspect.cleandoc(made.__doc__ or "")
     path = f", path={list(exhibit.path)}" if exhibit.path else ""
+    on_board = boards.boarded(exhibit.made())
+    board = BOARD.format(address=boards.address(on_board)) if on_board else ""
     shown = f"zd.view(sol, speed={exhibit.speed:g}{path}, graphs=[{graph!r}])".replace("'", '"')
     yield from (f"# {exhibit.title}", "", exhibit.see, "", f"Beside it: `{graph}`.", "", "```{raw} html", f'<iframe src="../../films/{name}.html" '
                 f'title="Film: {html.escape(exhibit.see)}" allowfullscreen style="width:100%;height:460px;border:0"></iframe>', "```", "",
                 "```python", "import zerodrift as zd", "", *exhibit.lines[:-1], shown, "```", "",
-                LIVE.format(name=name, title=exhibit.title, turning=TURNING if exhibit.made().dimension == 3 else ""), "## The mechanism", "",
+                LIVE.format(name=name, title=exhibit.title, board=board, turning=TURNING if exhibit.made().dimension == 3 else ""), "## The mechanism", "",
                 text.split("\n\n")[0], "", "```text", words, "```", "")
     if "References\n----------" in text:
         source = text.split("References\n----------\n")[1].split("\nExamples\n")[0].strip()

@@ -230,6 +230,33 @@ def test_it_has_graphs_paths_forces_and_units(browser, tmp_path):
         zd.view(m, live=True, graphs=["C.x"])
 
 
+@pytest.mark.parametrize("name", ["four_bar", "slider_crank", "quick_return"])
+def test_forces_of_hinges_on_the_ground_and_of_slots_are_arrows(browser, name, tmp_path):
+    m = getattr(zd.models, name)()
+    view = opened(browser, zd.view(m, live=True, forces=True), tmp_path)
+    arrows = browser.evaluate("zerodrift.scene.layers[0].arrows.map(each => [each.name, each.at])")
+    assert [each for each, _ in arrows] == view._scene["arrows"]
+    assert all(isinstance(at, int) for _, at in arrows)
+    assert browser.errors == []
+
+
+def test_a_cylinder_has_a_slider_for_its_stroke(browser, tmp_path):
+    """The slider assembles the mechanism anew: two sides and the angle between them by the cosine rule."""
+    m = zd.Mechanism("jack", gravity=(0, -9.81))
+    m.revolute("A", m.ground, m.link("arm", (0, 0), (1, 0), mass=2.0).start)
+    m.actuator("cylinder", m.ground.point((0.0, -0.5)), m["arm"].point((0.6, 0)), length=0.7)
+    view = opened(browser, zd.view(m, live=True), tmp_path)
+    assert view._scene["sliders"][0]["name"] == "cylinder.length"
+    slide(browser, 0, 0.8)
+    length = browser.evaluate("zerodrift.parameter(zerodrift.live.mechanism, 'cylinder.length')")
+    assert length == pytest.approx(0.8, abs=0.005)
+    angle = browser.evaluate("zerodrift.poses(zerodrift.live.mechanism)[2]")
+    assert np.sin(angle) == pytest.approx((length**2 - 0.5**2 - 0.6**2) / (2 * 0.5 * 0.6), abs=1e-9)
+    m.replace("cylinder", force=30.0)
+    assert {"cylinder.force"} == {each["name"] for each in zd.view(m, live=True)._scene["sliders"] if each["kind"] == "input"}
+    assert browser.errors == []
+
+
 def test_sliders_are_refused_without_a_live_view():
     sol = zd.simulate(zd.models.four_bar(), 0.1, step=0.01)
     with refused("conflicting-arguments", "sliders must be left out without live=True"):

@@ -216,7 +216,9 @@ function letGo() {
 const REACH = 25, PULL = 40;        // points of the screen: from a point that is grasped, and that an arrow key pulls
 const onScreen = (event) => { const box = canvas.getBoundingClientRect(); return [event.clientX - box.left, event.clientY - box.top]; };
 const parts = scene.shapes.map(([, name, numbers]) => ({name, point: numbers.findLast((i) => i >= 0 && !scene.points[i][1])}))
-  .filter((part, i, all) => part.name && part.point !== undefined && all.findIndex((each) => each.name === part.name) === i);
+  .filter((part) => part.name && part.point !== undefined)
+  .filter((part, i, all) => all.findIndex((each) => each.name === part.name) === i);
+const placeOf = (name) => parts.find((part) => part.name === name)?.point ?? scene.shapes.find((shape) => shape[1] === name)?.[2][0];       // of the ground, too
 
 function play(on) {
   live.playing = on;
@@ -315,7 +317,7 @@ function addSlider({name, kind, least, most, value, unit: unitOf, factor}) {
   document.getElementById("sliders").append(label);
 }
 
-layer.arrows = scene.arrows.map((name) => ({name, at: parts.find((part) => part.name === name).point}));
+layer.arrows = scene.arrows.map((name) => ({name, at: placeOf(name)}));
 Object.assign(globalThis.zerodrift, {parts, spot: (point) => picture.project(layer.at[point]), at: (point) => { locate(); return picture.place(layer, point); }});
 const packed = scene.core ?? globalThis.zerodriftCore;
 play(live.playing);

@@ -213,7 +213,7 @@ def _given(system: MechanismSystem, sliders: Mapping[str, tuple[float, float]]) 
 
 
 def _motors(system: MechanismSystem) -> dict[str, float]:
-    return {f"{motor.name}.{motor.drives}": motor.law.constant for motor in system._drawing.of(Motor)
+    return {f"{motor.name}.{motor.drives}": motor.law.constant for motor in system._drawing.of((Motor, Actuator))
             if motor.law.constant is not None and motor.drives in ("speed", "torque", "force")}
 
 
@@ -222,9 +222,11 @@ def _inputs(system: MechanismSystem) -> Limits:
 
 
 def _automatic(system: MechanismSystem, words: tuple[_parameters.Words, _parameters.Words]) -> Limits:
-    """Some lengths, springs, masses and gravity whose changes together a block and the drawing can follow."""
+    """Some strokes, lengths, springs, masses and gravity whose changes together a block and the drawing can follow."""
     limits: Limits = {}
-    for kind, most in AUTOMATIC.items():
+    driven = (each for each in system._drawing.of((Motor, Actuator)) if each.drives in ("length", "angle", "displacement"))
+    strokes = dict.fromkeys([f"{each.name}.{each.drives}" for each in driven], 1)
+    for kind, most in (strokes | AUTOMATIC).items():
         names = [name for name, value in system.parameters.items() if value and (name.endswith(kind) or name.startswith(kind))]
         left = most
         for name in names[:TRIALS * most]:
