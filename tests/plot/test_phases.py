@@ -7,6 +7,7 @@ from matplotlib.colors import to_hex
 import zerodrift as zd
 from few_bodies import falling_box
 from support import refused
+from zerodrift.plot.drawing import moments_of
 from zerodrift.plot.phases import COLOURS
 
 
@@ -79,3 +80,11 @@ def test_the_force_of_a_contact_acts_at_the_ground():
     assert name == "road"
     assert places[0] == pytest.approx(sol["ball.position"][-1] - [0, 0.1], abs=1e-12)
     assert forces[0] == pytest.approx([0, 9.81], abs=1e-9)
+
+
+def test_a_rod_is_drawn_while_it_is_joined():
+    sol = zd.simulate(zd.models.trebuchet(), 1.5, step=0.01)
+    ((start, end),) = (shape.points for shape in moments_of(sol, sol.p[:1], sol.t[:1])[0] if shape.kind == "rod")
+    assert np.hypot(*(end - start)) == pytest.approx(2.8)
+    ((start, end),) = (shape.points for shape in moments_of(sol, sol.p[-1:], sol.t[-1:])[0] if shape.kind == "rod")
+    assert (start == end).all()

@@ -116,6 +116,9 @@ TABLE = [
     Exhibit("closed_pendulum",
             "The chain falls from its arch, folds and whips: nothing repeats, and it stays closed to rounding.",
             4.0, 0.002),
+    Exhibit("compass_gait",
+            "Gravity alone drives the walk: what a step gains on the slope is lost where the next foot is set down.",
+            5.0, 0.005),
     Exhibit("four_bar",
             "The paper's mechanism falls from its start: the crank turns fully, and the rocker swings.",
             4.0, 0.005, ("C",)),
@@ -158,9 +161,15 @@ TABLE = [
     Exhibit("stephenson",
             "With each turn of the crank the output swings to and fro, unevenly, as the coupler's curve has it.",
             1.0, 0.005, ("E",), speed=0.4),
+    Exhibit("suspension",
+            "The wheel leaves the plate where it falls away, and the arm hits its stops.",
+            1.7136, 0.002, speed=0.7),
     Exhibit("toggle_press",
             "The knee is nearly straight where the ram is lowest: there a small torque holds a large force.",
             1.0, 0.002, speed=0.4),
+    Exhibit("trebuchet",
+            "The projectile slides in its trough, is lifted off and thrown; then the arm hits the beam.",
+            5.0, 0.005, ("projectile",)),
     Exhibit("watt",
             "P goes along a lemniscate whose middle is straight to the eye: it guided the pistons of steam engines.",
             1.0, 0.005, ("P",), speed=0.4),
@@ -196,7 +205,7 @@ def exhibits() -> list[Exhibit]:
     --------
     >>> from zerodrift import gallery
     >>> len(gallery.exhibits())
-    36
+    39
     """
     return [exhibit(name) for name in _models()]
 

@@ -14,6 +14,7 @@ from .bicycle import bicycle
 from .cam_follower import cam_follower
 from .chebyshev_lambda import chebyshev_lambda
 from .closed_pendulum import closed_pendulum
+from .compass_gait import compass_gait
 from .four_bar import four_bar
 from .four_bars import four_bars
 from .hoecken import hoecken
@@ -45,15 +46,17 @@ from .space import (
     whipple_bicycle,
 )
 from .stephenson import stephenson
+from .suspension import suspension
 from .toggle_press import toggle_press
+from .trebuchet import trebuchet
 from .watt import watt
 
 __all__ = ["andrews", "bennett", "bicycle", "cam_follower", "chain", "chebyshev_lambda", "closed_pendulum", "coin",
-           "delta_robot", "double_cardan", "double_wishbone", "flyball_governor", "four_bar", "four_bars",
+           "compass_gait", "delta_robot", "double_cardan", "double_wishbone", "flyball_governor", "four_bar", "four_bars",
            "gyroscope", "heavy_top", "hoecken", "hookes_joint", "jansen", "klann", "pantograph", "peaucellier",
            "planetary_gear", "quarter_car", "quick_return", "rattleback", "rolling_disc", "scissor_lift",
-           "slider_crank", "snakeboard", "spatial_slider_crank", "stephenson", "stewart_platform", "toggle_press",
-           "watt", "whipple_bicycle"]
+           "slider_crank", "snakeboard", "spatial_slider_crank", "stephenson", "stewart_platform", "suspension",
+           "toggle_press", "trebuchet", "watt", "whipple_bicycle"]
 
 
 def __dir__() -> list[str]:

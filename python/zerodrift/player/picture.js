@@ -312,7 +312,7 @@ const shades = new Set(["bar", "plate", "disc", "ring", "box", "rod"]);
 const anchor = points => points.length > 1 ? points[0].map((x, i) => (x + points[1][i]) / 2) : points[0];
 const single = new Set(["pin", "ball", "weld", "ground", "sleeve", "slider", "block", "wheel", "gear", "patch", "motor", "drive", "disc", "particle", "dot", "bushing", "blade", "mark", "stop", "load", "load_symbol", "moment"]);
 const joints = new Set(["pin", "ball", "weld", "sleeve", "dot", "particle", "mark"]);
-const back = ["ring", "gear", "cam", "ground", "wall", "rail", "road", "stop", "wheel", "disc", "coupled", "guide", "link", "curve", "groove", "rod", "cylinder", "damper", "spring", "slider", "rack", "block", "bushing", "weld", "particle", "roller", "spiral", "pin"];
+const back = ["ring", "gear", "cam", "ground", "wall", "rail", "road", "wheel", "disc", "coupled", "guide", "stop", "link", "curve", "groove", "rod", "cylinder", "damper", "spring", "slider", "rack", "block", "bushing", "weld", "particle", "roller", "spiral", "pin"];
 const draw = note => {
   begin();
   marks = [];

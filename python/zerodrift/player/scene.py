@@ -159,7 +159,7 @@ def _errors(points: np.ndarray, count: int) -> np.ndarray:
 
 def _drawn(sol: Solution, times: np.ndarray) -> tuple[list[Shape], np.ndarray]:
     """Shapes of a solution, and the points (times, points, dimension) of all of them."""
-    moments = moments_of(sol, _positions(sol, times))
+    moments = moments_of(sol, _positions(sol, times), times)
     return moments[0], np.array([np.concatenate([shape.points for shape in moment]) for moment in moments])
 
 

@@ -94,7 +94,8 @@ def mechanism(system_or_solution: SystemLike | Solution, p: ArrayLike | None = N
     rows = _rows(sol, p, t, ghosts)
     positions = ([] if p is None and sol is not None else [system.p0 if p is None else p])
     positions += [] if sol is None else [sol.p[row] for row in rows]
-    moments = _moments(system, positions, sol, names=names, path=path, forces=forces)
+    times = None if sol is None or p is not None else sol.t[rows]
+    moments = _moments(system, positions, sol, times, names=names, path=path, forces=forces)
     extras = NOTHING if isinstance(moments, np.ndarray) else Extras(
         names, paths_of(sol, path), _arrows(sol, forces, rows[:1]), force_scale)
     return _drawn(system, moments, ax, extras, moving=sol is not None and p is None)
@@ -203,7 +204,7 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
     frames = int((sol.t[-1] - sol.t[0]) * fps / speed) + 1
     times = sol.t[0] + np.arange(frames) * speed / fps
     rows = nearest(sol.t, times)
-    moments = _moments(sol.system, sol.p[rows], sol, names=names, path=path, forces=forces)
+    moments = _moments(sol.system, sol.p[rows], sol, sol.t[rows], names=names, path=path, forces=forces)
     ax = drawing_axes(ax, 3 if isinstance(moments, np.ndarray) or _is_in_space(moments) else 2)
     if isinstance(moments, np.ndarray):
         return _film(ax, moved_in_space(ax, moments), times, fps)
@@ -302,13 +303,14 @@ def _film(ax: Axes, draw: Callable[[int], list[Any]], times: np.ndarray, fps: fl
     return FuncAnimation(ax.figure, show, frames=frames, interval=1000 / fps, blit=False)      # type: ignore[arg-type]
 
 
-def _moments(system: BaseSystem, positions: Any, sol: Solution | None, **asked: Any) -> list[list[Shape]] | np.ndarray:
-    """Shapes of each position; for a system in space without shapes, its points (k, n, 3)."""
+def _moments(system: BaseSystem, positions: Any, sol: Solution | None, times: Any = None,
+             **asked: Any) -> list[list[Shape]] | np.ndarray:
+    """Shapes of each position, at times (k,) of a solution; for a system in space without shapes, its points (k, n, 3)."""
     if isinstance(system, BaseSystem):
         motion = () if sol is None else sol.p[_spread(sol, WHOLE)]
         known = system._sketches([checks.vector("p", p, system.nq) for p in positions], motion)
         if known is not None:
-            return known
+            return known if sol is None or times is None else _as_joined(known, sol, times)
     for name, value in asked.items():
         if value is not False and not _is_nothing(value):
             raise WrongValue(f"{name} must be left out for {system.name}, which is drawn from its points: it needs a Mechanism",
@@ -320,15 +322,26 @@ def _moments(system: BaseSystem, positions: Any, sol: Solution | None, **asked: 
     return shapes_of(points, motion)
 
 
-def moments_of(sol: Solution, positions: Any) -> list[list[Shape]]:
-    """Shapes of the system of a solution at each of the positions (k, nq).
+def _as_joined(moments: list[list[Shape]], sol: Solution, times: Any) -> list[list[Shape]]:
+    """The shapes with rods shrunk to their first points while they are released."""
+    changes, switched = sol.transitions, [(i, name) for i, (name, kind) in enumerate(sol.system._groups) if kind == "two-sided"]
+    if not switched:
+        return moments
+    states = changes["state"][np.searchsorted(changes["t"], times, side="right") - 1]
+    released = [{name for i, name in switched if not state[i]} for state in states]
+    return [[shape._replace(points=shape.points[[0, 0]]) if shape.kind == "rod" and shape.name in names else shape
+             for shape in shapes] for shapes, names in zip(moments, released, strict=True)]
+
+
+def moments_of(sol: Solution, positions: Any, times: Any = None) -> list[list[Shape]]:
+    """Shapes of the system of a solution at each of the positions (k, nq), at times (k,) in s.
 
     Raises
     ------
     ValueError
         If the system cannot be drawn.
     """
-    moments = _moments(sol.system, positions, sol)
+    moments = _moments(sol.system, positions, sol, times)
     return list(map(_lines, moments)) if isinstance(moments, np.ndarray) else moments
 
 

@@ -328,7 +328,7 @@ class Glyph(NamedTuple):
     directions: int
 
 
-BACK_TO_FRONT = (ring, gear, cam, ground, wall, rail, road, stop, wheel, disc, coupled, guide, link, curve, groove, rod, cylinder,
+BACK_TO_FRONT = (ring, gear, cam, ground, wall, rail, road, wheel, disc, coupled, guide, stop, link, curve, groove, rod, cylinder,
                  damper, spring, slider, rack, block, bushing, weld, particle, roller, spiral, pin, blade, mark, motor, drive,
                  load, load_symbol, moment)
 DIRECTED = {"drive": 2, **dict.fromkeys(("rail", "road", "stop", "wall", "groove", "guide", "slider", "block", "disc", "wheel",

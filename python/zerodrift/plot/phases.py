@@ -81,7 +81,7 @@ def phases(sol: Solution, ax: Axes | None = None, *, display: Display | None = N
     handles = [_handle(word) for word in words]
     if len(impacts):
         handles.append(Line2D([], [], color="#D55E00", marker="v", markersize=5, markeredgewidth=0, linestyle="", label="impact"))
-    ax.legend(handles=handles, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=len(handles))
+    ax.legend(handles=handles, frameon=False, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=min(len(handles), 4))
     return _style.finished(ax, "", legend=False)
 
 

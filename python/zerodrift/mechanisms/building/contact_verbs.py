@@ -128,7 +128,8 @@ class ContactVerbs(Elements):
         return self._add(Stop(name, of, lower, upper, _restitution(name, restitution), effort))
 
 
-    def latch(self, name: str, joint: Joint | str, *, when: MeasureLike | Expression | Event, until: Any = None) -> Latch:
+    def latch(self, name: str, joint: Joint | str, *, when: MeasureLike | Expression | Event | None = None,
+              until: Any = None) -> Latch:
         """Join a joint at one event and release it at another.
 
         Parameters
@@ -136,7 +137,7 @@ class ContactVerbs(Elements):
         name : str
         joint : Joint or name
             Made with ``active=``. It joins as the bodies stand, with a plastic impact (25b), which `Solution.impacts` has.
-        when, until : measure, text, SymPy expression or Event
+        when, until : measure, text, SymPy expression or Event, optional
             Quantities: the joint is joined when the first passes through zero upward, released when the second does. In text,
             the longest name of a measure at a place counts; numbers, + - * / and brackets.
 

@@ -158,7 +158,7 @@ def _stop(m: Any, name: str, *, measure: Any, lower: Any = None, upper: Any = No
     m.stop(name, measure, lower=lower, upper=upper, restitution=restitution)
 
 
-def _latch(m: Any, name: str, *, joint: Any, when: Any, until: Any = None) -> None:
+def _latch(m: Any, name: str, *, joint: Any, when: Any = None, until: Any = None) -> None:
     m.latch(name, joint, when=when, until=until)
 
 

@@ -163,6 +163,8 @@ def _held_by_ground(parts: Parts) -> list[Point]:
     """Points of the ground about which a body or a rod turns, each position once."""
     ground, held = parts.drawing.ground, dict[tuple[float, ...], Point]()
     for joint in parts.drawing.of(Joint):
+        if joint.switched is not None and joint.switched.active is not None:
+            continue        # joined anywhere
         if "distance" in quantities(joint) or (is_pinned(joint) and joint.axis is None):
             for side in (joint.first, joint.second):
                 if side.body is ground:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal, NamedTuple
 
@@ -218,7 +218,8 @@ def events(given: Any, system: BaseSystem, *, may_act: bool = False) -> tuple[Wa
 
     Functions as `then` are refused unless they may act.
     """
-    latches = tuple(latch for each in system._latches for latch in _of_latch(each, system))
+    latches = tuple(watched for joins, word in ((False, "until"), (True, "when"))      # at one instant joints are released first
+                    for each in system._latches for watched in _of_latch(each, word, joins, system))
     if given is None:
         return latches or None
     is_one = not isinstance(given, Sequence) or isinstance(given, str)
@@ -231,21 +232,19 @@ def events(given: Any, system: BaseSystem, *, may_act: bool = False) -> tuple[Wa
     return found + latches
 
 
-def _of_latch(latch: Any, system: BaseSystem) -> list[Watched]:
-    """Events at which a latch joins its joint, and lets it go."""
-    found = []
-    for word, given, joins in (("when", latch.when, True), ("until", latch.until, False)):
-        if given is None:
-            continue
-        what = f"{word} of latch {latch.name!r}"
-        event = given if isinstance(given, Event) else Event(given, direction=1)
-        if isinstance(event.what, str) and not system._watching.find(event.what):
-            from .formula_text import Parser  # slow to import
+def _of_latch(latch: Any, word: str, joins: bool, system: BaseSystem) -> Iterator[Watched]:
+    """Event at which a latch joins its joint, or lets it go."""
+    given = getattr(latch, word)
+    if given is None:
+        return
+    event = given if isinstance(given, Event) else Event(given, direction=1)
+    if isinstance(event.what, str) and not system._watching.find(event.what):
+        from .formula_text import Parser  # slow to import
 
-            event = replace(event, what=Parser(what, event.what, system._names_of_scalars()).expression())
-        watched = replace(event, direction=event.direction or 1, then={latch.joint: joins}).watched(latch.name, system)
-        found.append(watched._replace(is_own=False))
-    return found
+        parser = Parser(f"{word} of latch {latch.name!r}", event.what, system._names_of_scalars())
+        event = replace(event, what=parser.expression())
+    watched = replace(event, direction=event.direction or 1, then={latch.joint: joins}).watched(latch.name, system)
+    yield watched._replace(is_own=False)
 
 
 def inputs_of(given: Any, system: Any) -> list[str]:

@@ -1,0 +1,113 @@
+"""Models with contacts against a program that shares nothing with the package, and against the literature."""
+
+import math
+
+import numpy as np
+import pytest
+import sympy as sp
+
+import zerodrift as zd
+from event_driven import Contact, Machine
+
+G = 9.81
+FINE = {"rtol": 1e-10, "atol": 1e-12}
+T, Q, V = sp.Symbol("t"), sp.symbols("q1:4"), sp.Matrix(sp.symbols("v1:4"))
+
+
+def velocity(place, count):
+    """Velocity of a place (2,) that depends on the first coordinates."""
+    return place.jacobian(Q[:count]) * V[:count, :]
+
+
+def kinetic(mass, place, count):
+    speed = velocity(place, count)
+    return mass * speed.dot(speed) / 2
+
+
+def direction(angle):
+    return sp.Matrix([sp.cos(angle), sp.sin(angle)])
+
+
+def test_a_trebuchet_from_rest_to_landing():
+    """Angles of arm, hanger and sling until the sling lets go; then the projectile flies, and the arm hits the beam."""
+    m = zd.models.trebuchet()
+    sol = zd.simulate(m, 5.0, **FINE)
+    arm, hanger, sling = Q
+    axle, beam = sp.Matrix([0, 2.6]), -0.2 - math.pi / 2        # the arm's angle at the beam
+    tip, end, middle = axle - 3.6 * direction(arm), axle + 1.2 * direction(arm), axle - 1.2 * direction(arm)
+    weight, ball = end + direction(hanger - sp.pi / 2), tip + 2.8 * direction(sling)
+    rotation = 15 * 4.8**2 / 12 * V[0]**2 / 2 + 15 * V[1]**2 / 2
+    heights = 15 * middle[1] + 150 * weight[1]
+    energy = kinetic(15, middle, 3) + kinetic(150, weight, 3) + rotation
+    stop = Contact(arm - beam, None, 0.3)
+    whole = Machine(Q, V, T, energy + kinetic(12, ball, 3), G * (heights + 12 * ball[1]),
+                    [Contact(ball[1], velocity(ball, 3)[0], 0.0, (0.2, 0.2)), stop])
+
+    def slips_off(t, y):
+        return math.cos(0.2) + math.cos(y[0] - y[2])
+    start = [math.asin((2.6 - 0.18) / 3.6), 0.0, -math.asin(0.18 / 2.8)]
+    t, q, v, _, history = whole.run(start, np.zeros(3), 5.0, until=slips_off)
+    times = [phase.t0 for phase in sol.phases]
+    assert times[1:3] == pytest.approx([history[1][0], t], abs=1e-9)
+    at = np.searchsorted(sol.t, t - 1e-7)
+    assert sol["arm.angle"][at] == pytest.approx(q[0], abs=1e-6)
+    # it lands where a thrown stone does, sliding to rest
+    place, thrown = (np.array(sp.lambdify([Q, list(V)], each)(q, v), float).ravel() for each in (ball, velocity(ball, 3)))
+    flight = (thrown[1] + math.sqrt(thrown[1]**2 + 2 * G * place[1])) / G
+    speed = thrown[0] - 0.2 * math.hypot(thrown[1], math.sqrt(2 * G * place[1]))     # Coulomb's impulse where it lands
+    landed = sol.impacts[sol.impacts["name"] == "trough"][0]
+    assert landed["t"] == pytest.approx(t + flight, abs=1e-8)
+    later = min(sol.t[-1] - landed["t"], speed / (0.2 * G))
+    end = place[0] + thrown[0] * flight + speed * later - 0.1 * G * later**2
+    assert sol["projectile.position.x"][-1] == pytest.approx(end, abs=1e-6)
+    # the arm without it
+    alone = Machine(Q[:2], V[:2, :], T, energy.subs(V[2], 0), G * heights, [stop])
+    hits = [each.t for each in alone.run(q[:2], v[:2], 2.4, t=t)[3]]
+    assert len(hits) == 3
+    assert sol.impacts["t"][sol.impacts["name"] == "beam"][:3] == pytest.approx(hits[:3], abs=1e-7)
+    assert abs(sol.energy_violation).max() < 1e-6
+    pull = np.einsum("ij,ij->i", sol["sling.force"], sol["arm.start.position"] - sol["projectile.position"])
+    assert pull[sol.t < t - 1e-9].min() > 0        # a rope can bear it
+
+
+def test_a_suspension_on_a_shaker_leaves_it_and_hits_its_stops():
+    sol = zd.simulate(zd.models.suspension(), 1.2, **FINE)
+    height, angle = Q[:2]       # of the pivot, and of the arm
+    long, low = math.hypot(0.5, 0.15), math.atan2(-0.15, 0.5)
+    wheel, mount = sp.Matrix([0, height]) + long * direction(angle), sp.Matrix([0.5, height + 0.45])
+    strut = sp.sqrt((mount - wheel).dot(mount - wheel))
+    rate = (sp.Matrix([strut]).jacobian(Q[:2]) * V[:2, :])[0]
+    free = 0.15 + 0.45 + 300 * G / 20e3
+    contacts = [Contact(angle - low + 0.16, None, 0.3), Contact(low + 0.14 - angle, None, 0.3),
+                Contact(wheel[1] - 0.3 - 0.06 * (1 - sp.cos(11 * T)))]
+    other = Machine(Q[:2], V[:2, :], T, 150 * V[0]**2 + kinetic(40, wheel, 2),
+                    G * (300 * height + 40 * wheel[1]) + 10e3 * (strut - free)**2, contacts,
+                    [-1200 * rate * sp.diff(strut, each) for each in Q[:2]])
+    _, q, _, impacts, _ = other.run([0.45, low], np.zeros(2), 1.2)
+    mine = {round(t, 6) for t in sol.impacts["t"]}
+    assert np.unique(sol.impacts["t"])[[0, 1, 2, 3]] == pytest.approx([each.t for each in impacts[:4]], abs=1e-9)
+    assert {round(each.t, 6) for each in impacts if 2 in each.contacts} <= mine
+    assert len({each.contacts for each in impacts}) == 3        # below, above together with the tyre, and the tyre
+    assert sol["pivot.angle"][-1] + low == pytest.approx(q[1], abs=1e-6)      # within the rest speed, at which bounces end
+
+
+@pytest.mark.parametrize(("arguments", "digits"), [
+    ({}, 5e-4),         # Goswami's compass on 3 degrees, to the digits of its start, whose deviations halve at each step
+    # Garcia's simplest walker, feet a thousandth of the hip, as computed by Bhounsule: 0.200161072169750, -0.199906060087682,
+    # 0.400322144339512, -0.015805473227965 (angle of the legs and its rate between each other)
+    ({"leg_mass": 1.0, "hip_mass": 1e3, "foot_distance": 0.0, "slope": 0.009, "gravity": 1.0, "angle": 0.200161072169750,
+      "stance_speed": -0.199906060087682, "swing_speed": -0.199906060087682 + 0.015805473227965}, 1e-9)])
+def test_a_walker_repeats_the_step_of_the_literature(arguments, digits):
+    m = zd.models.compass_gait(**arguments)
+    sol = zd.simulate(m, 4.1, **FINE) if not arguments else zd.simulate(m, 12.0, **FINE)
+    normal = math.pi / 2 - arguments.get("slope", math.radians(3))
+    start = {"angle": 0.27104, "stance_speed": -1.0918, "swing_speed": -0.3772}
+    expected = [arguments.get(name, value) for name, value in start.items()]
+    assert len(sol.impacts) >= 3
+    for impact in sol.impacts[:3]:
+        after = np.flatnonzero(sol.t == impact["t"])[-1]
+        stance = impact["name"].split()[0]
+        swing = {"left": "right", "right": "left"}[stance]
+        found = [sol[f"{stance}.angle"][after] - normal, *(sol[f"{leg}.angular_velocity"][after] for leg in (stance, swing))]
+        assert found == pytest.approx(expected, abs=2 * digits)
+    assert sol.phases[-1].state["fall"] == "open"
