@@ -149,6 +149,7 @@ class Machine:
                 after, hit = self._impact(sorted(touching), closed, y[:n], y[n:], t)
                 impacts.append(Impact(t, hit, y[n:].copy(), after))
                 y[n:] = after
+                ended = None
                 at = self.read(y[:n], y[n:], t)
             staying = sorted(i for i in touching if at[3][i] < rest)
             modes = self._modes(staying, y[:n], y[n:], t, ended)
