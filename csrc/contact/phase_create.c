@@ -142,3 +142,29 @@ zd_phase_system *zd_phase_system_create(zd_arena *arena, const zd_system *full, 
     if (arena->base) zd_phase_pass_functions(self);
     return here;
 }
+
+typedef struct phase_making {
+    const zd_system *full;
+    const signed char *state;
+} phase_making;
+
+static void *make(zd_arena *arena, const void *of)
+{
+    const phase_making *it = of;
+    return zd_phase_system_create(arena, it->full, it->state);
+}
+
+zd_system *zd_phase_new(const zd_system *system, const signed char *state)
+{
+    zd_store store = {NULL};
+    zd_phase_system *self = zd_store_create(&store, make, &(phase_making){system, state});
+    if (self) self->memory = store.last;
+    return self ? &self->system : NULL;
+}
+
+void zd_phase_free(zd_system *phase)
+{
+    if (phase) zd_memory_free(((const zd_phase_system *)phase->data)->memory);
+}
+
+const int *zd_phase_rows(const zd_system *phase) { return ((const zd_phase_system *)phase->data)->row; }

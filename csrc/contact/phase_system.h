@@ -47,6 +47,7 @@ struct zd_phase_system {
     double *bias;           /* (groups,): added to each margin, which rounding may make negative when the phase begins */
     zd_switches switches;
     zd_operations operations;
+    zd_memory *memory;      /* its own, of zd_phase_new() */
 };
 
 /* The phase with the state (groups,) of each group, in memory of the arena. */

@@ -20,6 +20,14 @@ typedef struct zd_perturbation {
 
 zd_system zd_perturbed(zd_perturbation *perturbation);      /* refers to the perturbation and its system, which must outlive it */
 
+/* ---- a phase of a system with groups, which must outlive it ---- */
+
+/* The system with the constraints that are active in these states (groups,), as zd_transition has them, and forces of sliding friction. NULL
+ * without memory. */
+zd_system *zd_phase_new(const zd_system *system, const signed char *state);
+void zd_phase_free(zd_system *phase);
+const int *zd_phase_rows(const zd_system *phase);       /* (m,): the constraint of the system that each one of the phase is */
+
 /* ---- operations of a run for single states; on failure each writes one sentence into `message` ---- */
 
 /* Accelerations at states t (states,), p (states, nq), v (states, nv), those of these that are not NULL: vdot (states, nv), multipliers

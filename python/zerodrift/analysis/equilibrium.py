@@ -12,9 +12,10 @@ from .._private.types import ArrayLike, Measures, SystemLike, Values
 from ..errors import EquilibriumFailed, WrongValue, ZerodriftError
 from ..runs.arguments.methods import Projection
 from ..runs.states.operations import project
-from ..systems.base import BaseSystem, unswitched
+from ..systems.base import BaseSystem, system_of
 from .equilibrium_result import Equilibrium, at_rest, in_motion, of_many
 from .large import MANY, blocks_that_meet, found
+from .phase import resting
 from .quantities import components, find, names_of, rows_of, values_of
 from .relaxation import settled
 from .rest import Balance, Search
@@ -80,8 +81,10 @@ def equilibrium(system: SystemLike, *, near: ArrayLike | Values | None = None, h
     >>> round(eq["link.angle"], 9), round(eq["pin.force.y"], 9), eq.stable
     (-1.570796327, 19.62, True)
     """
-    system, t = unswitched(system, "an equilibrium"), checks.number("t", t)
+    system, t = system_of(system), checks.number("t", t)
     checks.choice("stability", stability, ("stable", "any"))
+    if system._groups:
+        return _with_contacts(system, t, near, hold, v, is_downhill=stability == "stable")
     if hold == () and v is None and (meet := blocks_that_meet(system)) is not None:
         return of_many(*found(system, t, _first(system, near), meet))
     p = near_to(system, near, t)
@@ -91,6 +94,17 @@ def equilibrium(system: SystemLike, *, near: ArrayLike | Values | None = None, h
     held = {name: _held(at, name) for name in names_of(hold, "hold")}
     balance, iterations, how = _found(system, t, p, held, is_downhill=stability == "stable")
     return at_rest(balance, iterations, how)
+
+
+def _with_contacts(system: BaseSystem, t: float, near: Any, hold: Any, v: Any, *, is_downhill: bool) -> Equilibrium:
+    """The equilibrium of a system with contacts, in its phase."""
+    if hold != () or v is not None:
+        raise WrongValue(f"hold and v must be left out for {system.name}, which has contacts, stops or joints that switch",
+                         "not-available")
+    balance, iterations, found = resting(system, t, near, is_downhill=is_downhill)
+    result, here = at_rest(balance, iterations, "Newton's method, contact by contact"), vars(balance.at.system)
+    result.phase, result.system, result.multipliers = here["phase"], system, found.multipliers
+    return result
 
 
 def _held(at: State, name: str) -> np.ndarray:

@@ -59,6 +59,8 @@ class Equilibrium(Reading):
     iterations : int
     how : str
         Method that found it.
+    phase : dict of str to str
+        State of each contact, stop, joint that switches and dry friction: "open", "closed", "sticking", "released", "joined".
     """
 
     def __init__(self, system: BaseSystem, t: float, state: tuple[np.ndarray, ...], effort: dict[str, Any], **found: Any) -> None:
@@ -68,6 +70,7 @@ class Equilibrium(Reading):
         self._acting = system._watching.acting(effort, np.array([list(effort.values())]))
         self.stable, self.residual, self._named_free = found["stable"], found["residual"], found["free"]
         self.iterations, self.how = found["iterations"], found["how"]
+        self.phase: dict[str, str] = {}
         spectrum: Spectrum = found["spectrum"]
         self.eigenvalues, self.frequencies = spectrum.eigenvalues, spectrum.frequencies
 
@@ -87,6 +90,8 @@ class Equilibrium(Reading):
         growing = self.eigenvalues[self.eigenvalues.real > 0]
         if self.stable is False and growing.size:
             lines.append(f"  fastest growth    {growing.real.max():.6g} 1/s")
+        if self.phase:
+            lines.append(f"  phase             {', '.join(f'{name} {word}' for name, word in self.phase.items())}")
         if self.free:
             lines.append(f"  free              {', '.join(self.free)}")
         lines += [f"  effort            {name} = {_shown(value)}" for name, value in self.effort.items()]

@@ -52,6 +52,8 @@ class Linearization:
         z' = N^+ (A v, vdot) at the state itself; zero in an equilibrium or a steady motion.
     rotation : ndarray (3,)
         Angular velocity in rad/s of the frame in which the motion is steady.
+    phase : dict of str to str
+        State of each contact, stop, joint that switches and dry friction: what is closed, joined or sticking is a constraint.
     is_exact : bool
         True: the derivatives of the accelerations are the system's own; False: they are finite differences.
     """
@@ -60,6 +62,7 @@ class Linearization:
                  outputs: tuple[str, ...]) -> None:
         at = flow.at
         self._at, self.system, self.t, self.p, self.v = at, at.system, at.t, at.p, at.v
+        self.phase: dict[str, str] = getattr(at.system, "phase", {})
         self.A, self.B, self.C, self.D, self.inputs, self.outputs = flow.A, B, C, D, inputs, outputs
         self.basis, self.rate, self.rotation = flow.tangent.basis, flow.rate, flow.Omega
         self.is_exact = flow.derivatives.is_exact
@@ -246,6 +249,8 @@ class Linearization:
             number = f"{value.real if is_damped else 0.0:+.6g}" + (f" ± {value.imag:.6g}i" if value.imag else "")
             damping = self.damping[i] if is_damped else 0.0
             lines.append(f"    {self.frequencies[i]:<16.6g} {damping:<15.4g} {number:<27} {self.dominant(i)}")
+        if self.phase:
+            lines.append(f"  phase: {', '.join(f'{name} {word}' for name, word in self.phase.items())}")
         if self.ignored:
             lines.append(f"  ignored: {', '.join(self.ignored)}")
         if np.any(self.rate):

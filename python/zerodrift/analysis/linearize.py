@@ -10,12 +10,13 @@ import numpy as np
 from .._private import checks
 from .._private.types import ArrayLike, Measures, Reading, SystemLike, Values
 from ..errors import AccuracyWarning, InconsistentStart, WrongType, WrongValue
-from ..systems.base import BaseSystem, core_of, unswitched
+from ..systems.base import BaseSystem, core_of, system_of
 from . import differences
 from .equilibrium import equilibrium
 from .equilibrium_result import Equilibrium
 from .flow import Flow
 from .linearization_result import Linearization
+from .phase import at_state
 from .quantities import components, conjugate, find, names_of
 from .state import State, scales, sizes_of, state
 
@@ -73,8 +74,11 @@ def linearize(system: SystemLike, at: Reading | tuple[float, ArrayLike, ArrayLik
     >>> round(float(abs(lin.eigenvalues[0])) ** 2, 9)
     14.715
     """
-    system = unswitched(system, "a linearization")
+    system = system_of(system)
     core_of(system)
+    if system._groups:
+        at, system = _in_its_phase(system, at, v)
+        v = None
     if at is None and v is not None:
         at, v = equilibrium(system, v=v), None
     here, rest = _state(system, at, v), _rest(at)
@@ -87,13 +91,19 @@ def linearize(system: SystemLike, at: Reading | tuple[float, ArrayLike, ArrayLik
     return _with_ports(flow, names_of(inputs, "inputs"), names_of(outputs, "outputs"))
 
 
-def _state(system: BaseSystem, at: Any, v: Any) -> State:
-    """The terms at the state that is given."""
+def _in_its_phase(system: BaseSystem, at: Any, v: Any) -> tuple[Any, BaseSystem]:
+    """The state of a system with contacts, and the system in the phase that a run begins with there."""
+    t, p, v = _numbers(system, at, v)
+    return (t, p, v), at_state(system, t, p, v)
+
+
+def _numbers(system: BaseSystem, at: Any, v: Any) -> tuple[float, np.ndarray, np.ndarray]:
+    """The state that is given."""
     if v is not None:
         raise WrongValue("v must be left out where the state is given", "conflicting-arguments")
     if at is None:
-        t, p, v = 0.0, *system._state_or_start(None, None, "p", "v", 0.0)
-    elif hasattr(at, "p") and hasattr(at, "v"):
+        return 0.0, *system._state_or_start(None, None, "p", "v", 0.0)
+    if hasattr(at, "p") and hasattr(at, "v"):
         t, p, v = getattr(at, "t", 0.0), at.p, at.v
     else:
         try:
@@ -101,7 +111,12 @@ def _state(system: BaseSystem, at: Any, v: Any) -> State:
         except (TypeError, ValueError):
             raise WrongType(f"at must be an equilibrium, an instant such as sol.at(t), or (t, p, v), "
                             f"not {checks.shown(at)}") from None
-    here = state(system, checks.number("t", t), checks.vector("p", p, system.nq), checks.vector("v", v, system.nv))
+    return checks.number("t", t), checks.vector("p", p, system.nq), checks.vector("v", v, system.nv)
+
+
+def _state(system: BaseSystem, at: Any, v: Any) -> State:
+    """The terms at the state that is given."""
+    here = state(system, *_numbers(system, at, v))
     if not hasattr(at, "p"):
         core_of(system).check_domain(here.t, here.p, here.v)
     scale = scales(system, here.p)

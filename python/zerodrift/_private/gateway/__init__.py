@@ -40,13 +40,13 @@ from .base import (
     required,
 )
 from .callbacks import CALLBACK_CODE, PythonCore, Watcher
+from .derived_systems import PerturbedCore, gaps, in_phase, perturbed
 from .inputs import Following, Inputs
 from .kinematics import Prescribing, Tracked, quintic_spline
 from .known_events import KnownEvent
 from .measures import MAX_LEAST, Acting, Outputs
 from .operations import acceleration, accelerations, accelerations_with, needed_efforts, project, states_between
 from .packed_layout import CONSTANT, DIAGONAL, PACKED, Packing
-from .perturbation import PerturbedCore, perturbed
 from .records import COUNTS, Record, row_bytes
 from .runs import (
     Results,
@@ -72,7 +72,7 @@ _LATER = {
                 "has_lanes", "run_batch", "tables_of_kind"),
     "compiled.functions": ("Function", "InLibrary", "SET_SINES_OF_LARGE", "address_of", "find", "in_library", "load_data",
                            "numba_signature", "set_sines_of_large"),
-    "open_runs": ("ManyOpenRuns", "OpenRun", "STEP", "Saved", "NO_RECORD", "MAX_STEPS"),
+    "open_runs": ("ManyOpenRuns", "OpenRun", "STEP", "Saved", "NO_RECORD", "MAX_STEPS", "phase_at"),
     "compiled.native": ("VERSION", "NativeCore", "kind_at", "probe", "terms_of"),
 }
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..core import ffi, lib
 from .base import doubles
-from .runs import Run
+from .runs import Run, settings
 from .systems import CoreSystem
 
 STEP = lib.zd_run_step      # status of so many steps of a run, with a record or NULL: the call that controllers make
@@ -218,3 +218,20 @@ class ManyOpenRuns:
             lib.zd_open_lanes_advance(lanes, steps, t)
         else:
             lib.zd_open_runs_advance(self.c, *self._parts[part], steps, t)
+
+
+class Found(NamedTuple):
+    """The phase that the core finds at a state, which an impact may have changed."""
+
+    state: tuple[int, ...]      # (groups,) as `zd_transition` has it
+    v: np.ndarray
+    vdot: np.ndarray
+    multipliers: np.ndarray     # of all constraints
+
+
+def phase_at(core: CoreSystem, formulation: int, t: float, p: np.ndarray, v: np.ndarray) -> Found:
+    """The phase that follows at a state, by its gaps, velocities and forces."""
+    members = {"formulation": formulation, "t0": t, "t1": t + 1.0, "step": 1.0, "save_every": 1, "is_open": 1}
+    run = OpenRun(core.for_run(), settings(members), p, v, None)
+    vdot, multipliers = run.accelerations()
+    return Found(tuple(run.transitions[0][1]), run.v, vdot, multipliers)

@@ -26,10 +26,10 @@ class Phase(NamedTuple):
 def phases_of(transitions: np.ndarray, groups: Sequence[tuple[str, str]], end: float) -> list[Phase]:
     """The phases of a run that ended at this time; `groups` are the names and kinds of its groups of constraints."""
     ends = [*transitions["t"][1:].tolist(), end][:len(transitions)]
-    return [Phase(float(row["t"]), t1, _words(row["state"], groups)) for row, t1 in zip(transitions, ends, strict=True)]
+    return [Phase(float(row["t"]), t1, words(row["state"], groups)) for row, t1 in zip(transitions, ends, strict=True)]
 
 
-def _words(state: np.ndarray, groups: Sequence[tuple[str, str]]) -> dict[str, str]:
+def words(state: np.ndarray, groups: Sequence[tuple[str, str]]) -> dict[str, str]:
     """State by name: of a contact with friction whether it sticks or slides."""
     found: dict[str, str] = {}
     for (name, kind), value in zip(groups, state.tolist(), strict=True):

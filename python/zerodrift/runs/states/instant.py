@@ -48,7 +48,7 @@ class Reading:
         vdot = _sample(self.vdot)
         if self._least is None:
             given = _sample(self.multipliers)
-            self._least = given if not self.system.m else core.measure(
+            self._least = given if not self.system.m or self.system._groups else core.measure(
                 number, *states, vdot, given, wanted="least", acting=self._acting)
         return *states, vdot, self._least
 

@@ -16,6 +16,7 @@ from ..arguments import methods, settings
 
 TOL, ITERATIONS = 1e-12, 100      # defaults of `assemble`
 NUDGE = 1e-3                      # default displacement, in rad or relative to the size of the mechanism
+IMPACT = 1e-7       # change of velocities at a state, relative to these, that is rounding
 
 
 def assemble(system: SystemLike, p: ArrayLike | Values | None = None, v: ArrayLike | None = None, hold: Measures = (), *,
@@ -195,7 +196,8 @@ def acceleration(system: SystemLike, p: ArrayLike, v: ArrayLike, t: float = 0.0,
     ----------
     system : system or Mechanism
     p, v : array_like (nq,), (nv,)
-        The state. It need not satisfy the constraints.
+        The state. It need not satisfy the constraints, except in systems with contacts: these are in the phase with which a run
+        from the state would begin.
     t : float
         Time in s.
     formulation : str, optional
@@ -222,5 +224,21 @@ def acceleration(system: SystemLike, p: ArrayLike, v: ArrayLike, t: float = 0.0,
     of = system_of(system)
     core = core_of(of)
     row = methods.row_of("formulations", formulation or of._formulation)
-    return gateway.acceleration(core, row, settings.on_singular_row(on_singular),
-                                 checks.number("t", t), checks.vector("p", p, core.nq), checks.vector("v", v, core.nv))
+    at = checks.number("t", t), checks.vector("p", p, core.nq), checks.vector("v", v, core.nv)
+    if of._groups:
+        return phase_at(of, *at, row)[2:]
+    return gateway.acceleration(core, row, settings.on_singular_row(on_singular), *at)
+
+
+def phase_at(of: BaseSystem, t: float, p: np.ndarray, v: np.ndarray, row: int) -> Any:
+    """The phase with which a run from a state begins: states of its groups, v, vdot and multipliers.
+
+    Raises
+    ------
+    ValueError
+        If contacts collide there.
+    """
+    found = gateway.phase_at(core_of(of), row, t, p, v)
+    if np.abs(found.v - v).max(initial=0.0) > IMPACT * (1.0 + np.abs(v).max(initial=0.0)):
+        raise WrongValue(f"a state of {of.name} must be before or after an impact, and contacts collide in it", "not-available")
+    return found

@@ -1,13 +1,17 @@
-"""Systems perturbed by relative errors of the size of rounding."""
+"""Systems made from another: perturbed by errors of the size of rounding, or in one phase of constraints that switch."""
 
 from __future__ import annotations
 
+import copy
+import functools
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from ..core import ffi, lib
 from .base import TERMS, doubles
+from .measures import Acting
 from .systems import CoreSystem
 
 NAMES = ("A", "M", "d", "f", "C", "Phi_t", "xi")    # the terms that are perturbed: those the motion follows from
@@ -73,3 +77,60 @@ def _paired(inner: CoreSystem, factors: np.ndarray) -> np.ndarray:
     upper = np.triu(dense)
     paired = upper + np.triu(upper, 1).T
     return inner.packing.pack("M", paired) if inner.packing else paired
+
+
+def gaps(core: CoreSystem, t: float, p: np.ndarray) -> dict[int, float]:
+    """Gaps of one-sided groups by their indices, in units of their scales."""
+    groups = core.c.group
+    Phi = core.evaluate_states(("Phi",), np.array([float(t)]), p[None], np.zeros((1, core.nv)))["Phi"][0]
+    length = core.c.length or 1.0
+    return {g: groups[g].sign * (Phi[groups[g].first] - groups[g].value) / (groups[g].scale or length)
+            for g in range(core.c.groups) if groups[g].kind == lib.ZD_ONE_SIDED}
+
+
+def in_phase(core: CoreSystem, state: Sequence[int]) -> Any:
+    """The core's system of one phase; its measures take the multipliers of its own constraints."""
+    mine = copy.copy(core)
+    mine.__class__ = _class_of(type(core))
+    for name in [name for name in mine.__dict__ if isinstance(getattr(type(core), name, None), functools.cached_property)]:
+        del mine.__dict__[name]
+    c = ffi.gc(lib.zd_phase_new(core.c, list(state)), lib.zd_phase_free)
+    CoreSystem.__init__(mine, c, (core, c))
+    mine.__dict__ |= {"full": core, "state": tuple(state), "measures": core.measures,
+                      "active": np.array(ffi.unpack(lib.zd_phase_rows(c), mine.m) if mine.m else [], dtype=int)}
+    return mine
+
+
+class _InPhase:
+    """Methods of a phase beside those of its system."""
+
+    full: Any
+    state: tuple[int, ...]
+    active: np.ndarray      # (m,): constraint of the full system that each one is
+    c: Any
+
+    def for_run(self) -> Any:
+        own = self.full.for_run()
+        return self if own is self.full else in_phase(own, self.state)
+
+    def expanded(self, multipliers: np.ndarray) -> np.ndarray:
+        """Multipliers (k, full m) of all constraints, from those (k, m) of the phase."""
+        found = np.zeros((len(multipliers), self.full.m))
+        found[:, self.active] = multipliers
+        return found
+
+    def measure(self, index: int, t: np.ndarray, p: np.ndarray, v: np.ndarray, vdot: np.ndarray | None = None,
+                multipliers: np.ndarray | None = None, *, is_own: bool = False, wanted: str = "value", is_least: bool = False,
+                acting: Acting | None = None) -> np.ndarray:
+        """As of any system; reactions that are not unique are those of the multipliers that are given."""
+        if wanted == "least":
+            return np.array(multipliers)
+        given: Any = super()
+        return given.measure(index, t, p, v, vdot, multipliers, is_own=is_own, is_least=True, acting=acting)
+
+
+_classes: dict[type, type] = {}
+
+
+def _class_of(of: type) -> type:
+    return _classes.setdefault(of, type("InPhase", (_InPhase, of), {}))
