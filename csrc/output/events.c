@@ -99,6 +99,8 @@ static int locate_event(zd_watch *self, int event, int most, double *end)
         if (!zd_passes_zero(zeros->g[k - 1], zeros->g[k], events->direction[event])) continue;
         zd_occurrence *it = &self->occurrence[self->occurrences++];
         *it = (zd_occurrence){event, k, bracket_of(self, event, k - 1, k)};
+        /* Contacts with one freedom change at one instant. */
+        if (zd_acts(events, event) && it->bracket.a < *end && *end < it->bracket.b) it->bracket = zd_bracket_near(*end, it->bracket);
         int status = locate(self, it);
         if (status) return status;
         const int is_last = self->found[event] + ++number == events->terminal[event] || zd_acts(events, event);
