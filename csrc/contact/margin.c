@@ -31,20 +31,36 @@ static double find_total_bound(const zd_phase_system *self, int index, const dou
     return total;
 }
 
+/* Margin of a one-sided group: beyond the gap of an open one, and of an idle one beyond rounding, is the body; beside its range nothing is.
+ * Shapes without another side may be passed from behind. */
+static double find_normal_margin(const zd_phase_system *self, int index, const double *lambda)
+{
+    const zd_group *group = self->full->group + index;
+    const double within = zd_phase_within(self, index), gap = zd_phase_gap(self, index);
+    switch (self->state[index]) {
+    case ZD_CLOSED: return fmin(within, -group->sign * lambda[group->first]);
+    case ZD_IDLE: return fmin(within, gap + ZD_TOUCHING * (group->scale > 0 ? group->scale : self->full->length));
+    case ZD_BEHIND: return group->other ? within : fmin(within, -gap);
+    default: return fmax(gap, -within);
+    }
+}
+
 int zd_phase_margin(zd_phase_system *self, const zd_point *point, int index, double t, const double *p, const double *v, double *margin)
 {
     const zd_group *group = self->full->group + index;
     const signed char state = self->state[index];
-    const int first = group->first, is_normal = group->kind == ZD_ONE_SIDED;
+    const int is_normal = group->kind == ZD_ONE_SIDED;
     *margin = 1;
-    if (group->kind == ZD_TWO_SIDED || state == ZD_IDLE || (!is_normal && state == ZD_OPEN)) return ZD_DONE;
+    if (group->kind == ZD_TWO_SIDED || (!is_normal && (state == ZD_OPEN || state == ZD_IDLE))) return ZD_DONE;
+    const double *lambda = state == ZD_CLOSED ? zd_point_multipliers(point) : NULL;
     int status = ZD_DONE;
-    if (state == ZD_CLOSED) {
-        const double *lambda = zd_point_multipliers(point);
-        *margin = is_normal ? -group->sign * lambda[first] : find_total_bound(self, index, lambda) - fabs(lambda[first]);
-    } else {
-        status = zd_phase_evaluate(self, is_normal ? ZD_PHI : ZD_C | ZD_PHI_T, t, p, v);
-        *margin = is_normal ? group->sign * (zd_phase_Phi(self)[first] - group->value) : zd_slip_sign(state) * zd_phase_slip(self, index, v);
+    if (is_normal) {
+        if (state != ZD_CLOSED || group->range) status = zd_phase_evaluate(self, ZD_PHI, t, p, v);
+        *margin = find_normal_margin(self, index, lambda);
+    } else if (state == ZD_CLOSED) *margin = find_total_bound(self, index, lambda) - fabs(lambda[group->first]);
+    else {
+        status = zd_phase_evaluate(self, ZD_C | ZD_PHI_T, t, p, v);
+        *margin = zd_slip_sign(state) * zd_phase_slip(self, index, v);
     }
     *margin += self->bias[index];
     return status;

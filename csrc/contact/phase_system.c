@@ -55,6 +55,20 @@ double zd_phase_slip(const zd_phase_system *self, int index, const double *v)
     return zd_row_times(&row, v) + zd_phase_Phi_t(self)[first];
 }
 
+double zd_phase_gap(const zd_phase_system *self, int index)
+{
+    const zd_group *group = self->full->group + index;
+    return group->sign * (zd_phase_Phi(self)[group->first] - group->value);
+}
+
+double zd_phase_within(const zd_phase_system *self, int index)
+{
+    const zd_group *group = self->full->group + index;
+    if (!group->range) return INFINITY;
+    const double x = zd_phase_Phi(self)[group->range - 1];
+    return fmin(x - group->lower, group->upper - x);
+}
+
 /* ---- terms ---- */
 
 static double fixed_force(const zd_phase_system *self, const zd_sliding *it)

@@ -4,8 +4,11 @@
 #include "../point/point.h"
 
 /* State of a group: of a one-sided row open or closed; of two-sided rows released or joined; of friction absent, sticking, or sliding with
- * a slip velocity of this sign. Idle: closed or sticking as others are on which it depends, and which have its force. */
-enum { ZD_OPEN, ZD_CLOSED, ZD_SLIDES_FORWARD, ZD_SLIDES_BACKWARD, ZD_IDLE };
+ * a slip velocity of this sign. Idle: closed or sticking as others are on which it depends, and which have its force. Behind: within the
+ * range of a shape, on its other side, where there is no contact. */
+enum { ZD_OPEN, ZD_CLOSED, ZD_SLIDES_FORWARD, ZD_SLIDES_BACKWARD, ZD_IDLE, ZD_BEHIND };
+
+static const double ZD_TOUCHING = 1e-10;     /* gap of contacts that take part in a change, relative to the characteristic length */
 
 enum { ZD_MAX_LOADS = 3 };      /* number of rows whose multipliers may be a load */
 
@@ -67,6 +70,9 @@ const double *zd_phase_Phi(const zd_phase_system *self);
 const double *zd_phase_Phi_t(const zd_phase_system *self);
 const double *zd_phase_xi(const zd_phase_system *self);
 double zd_phase_slip(const zd_phase_system *self, int group, const double *v);
+/* Gap of a one-sided group, and how far its coordinate is within its range: INFINITY without one. */
+double zd_phase_gap(const zd_phase_system *self, int group);
+double zd_phase_within(const zd_phase_system *self, int group);
 /* Number of measures of the full system. */
 static inline int zd_own_measures(const zd_system *full) { return full->measures ? full->measures->count : 0; }
 /* Sets the functions of a phase whose rows are known. */
@@ -81,7 +87,8 @@ double zd_friction_load(const zd_system *full, const zd_group *group, const doub
 /* Bound of the friction of a group, from the multipliers of all rows; `which`: 0 static, 1 sliding. */
 double zd_friction_bound(const zd_system *full, int group, int which, const double *lambda);
 /* Margin of a group at a state, whose accelerations and multipliers are those of the point: positive while its phase lasts. It is the gap of
- * an open row, the force N of a closed one, the bound of static friction minus its force, and the slip speed. */
+ * an open row, the force N of a closed one, the bound of static friction minus its force, and the slip speed; and how far the coordinate of a
+ * bounded shape is from the ends of its range. */
 int zd_phase_margin(zd_phase_system *self, const zd_point *point, int group, double t, const double *p, const double *v,
                     double *margin);
 /* True if the margin depends on accelerations and multipliers. */

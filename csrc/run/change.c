@@ -221,7 +221,7 @@ static int change(zd_contacts *it, int joining, int is_start)
     zd_phases *phases = it->phases;
     double before = 0, after = 0;
     zd_phases_save_state(run);
-    int status = zd_phase_evaluate(phases->present->of, ZD_PHI, phases->at.t, phases->at.p, phases->at.v);
+    int status = zd_phase_evaluate(phases->present->of, ZD_PHI | ZD_C | ZD_PHI_T, phases->at.t, phases->at.p, phases->at.v);
     if (!status) status = zd_contacts_find(it, is_start);
     if (!status) status = zd_contacts_find_loads(it);
     if (!status) status = zd_contacts_allocate(it);

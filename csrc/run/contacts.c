@@ -8,8 +8,6 @@
 
 #include "../point/point.h"
 
-static const double TOUCHING = 1e-10;       /* gap of contacts that take part, relative to the characteristic length */
-
 static int refuse_start(zd_contacts *it, const zd_group *group, double gap)
 {
     snprintf(it->run->outcome.message, ZD_MESSAGE, "the start must not penetrate contact '%s': its gap is %.3g", group->name, gap);
@@ -27,42 +25,85 @@ static signed char find_end(const zd_contacts *it, int g)
     return zd_point_multipliers(it->run->motion.point)[phases->full->group[g].first] > 0 ? ZD_SLIDES_FORWARD : ZD_SLIDES_BACKWARD;
 }
 
-int zd_contacts_find(zd_contacts *it, int is_start)
+/* True if the coordinate along a bounded shape is beside its range, or at an end and moves out. */
+static int is_beside(const zd_contacts *it, int g)
+{
+    const zd_phase_system *of = it->phases->present->of;
+    const zd_group *group = it->phases->full->group + g;
+    const double within = zd_phase_within(of, g), rounding = ZD_TOUCHING * zd_group_scale(it->phases, group);
+    if (fabs(within) > rounding) return within < 0;
+    const zd_row_of_C row = zd_phase_row(of, group->range - 1);
+    const double rate = zd_row_times(&row, it->phases->at.v) + zd_phase_Phi_t(of)[group->range - 1];
+    return zd_phase_Phi(of)[group->range - 1] - group->lower == within ? rate < 0 : rate > 0;
+}
+
+/* State of a normal row that does not touch, or ZD_CLOSED if it does; -1 if the start penetrates. Within the range of a shape with two
+ * sides, the body is on the side to which it came, and in doubt on the first. */
+static int find_place(const zd_contacts *it, int g, int is_start)
+{
+    const zd_phases *phases = it->phases;
+    const zd_phase_system *of = phases->present->of;
+    const zd_group *group = phases->full->group + g;
+    const double gap = zd_phase_gap(of, g), tolerance = (is_start ? ZD_PENETRATION : ZD_TOUCHING) * zd_group_scale(phases, group);
+    const int other = group->other - 1;
+    const signed char state = it->next[g];
+    if (state == ZD_CLOSED || state == ZD_IDLE) return group->range && is_beside(it, g) ? ZD_OPEN : ZD_CLOSED;
+    if (group->range && is_beside(it, g)) return ZD_OPEN;
+    if (state == ZD_BEHIND) return other < 0 && gap > -tolerance ? ZD_OPEN : ZD_BEHIND;
+    if (gap > tolerance) return ZD_OPEN;
+    if (gap < -tolerance && is_start && (other < 0 || zd_phase_gap(of, other) < -tolerance)) return -1;
+    if (!group->range || gap >= -tolerance) return other >= 0 && it->next[other] == ZD_CLOSED ? ZD_BEHIND : ZD_CLOSED;
+    return ZD_BEHIND;
+}
+
+static int add_candidate(zd_contacts *it, int g, int normal, double gap)
+{
+    const zd_group *group = it->phases->full->group + g;
+    if (it->count == ZD_MAX_CANDIDATES) {
+        snprintf(it->run->outcome.message, ZD_MESSAGE, "at most %d contacts and frictions may change at one instant", ZD_MAX_CANDIDATES);
+        return ZD_SEVERAL_MOTIONS;
+    }
+    it->group[it->count] = g;
+    it->gap[it->count] = gap;
+    it->sign[it->count] = normal < 0 ? group->sign : 1;
+    it->row[it->count] = (zd_candidate){normal, {group->friction[0], group->friction[1]}, ZD_OPEN};
+    it->ends[it->count] = find_end(it, g);
+    it->count++;
+    return ZD_DONE;
+}
+
+static int find_normals(zd_contacts *it, int is_start)
 {
     const zd_phases *phases = it->phases;
     const zd_system *full = phases->full;
-    const double *Phi = zd_phase_Phi(phases->present->of);
-    for (int pass = 0; pass < 3; pass++)        /* normal rows, their friction, other friction */
-        for (int g = 0; g < full->groups; g++) {
+    int status = ZD_DONE;
+    for (int g = 0; g < full->groups && !status; g++) {
+        if (full->group[g].kind != ZD_ONE_SIDED) continue;
+        const double gap = zd_phase_gap(phases->present->of, g);
+        const int place = find_place(it, g, is_start);
+        if (place < 0) return refuse_start(it, full->group + g, gap);
+        it->next[g] = (signed char)place;
+        if (place == ZD_CLOSED) status = add_candidate(it, g, -1, gap);
+    }
+    it->normals = it->count;
+    for (int k = 0; k < it->normals; k++) it->next[it->group[k]] = ZD_OPEN;
+    return status;
+}
+
+int zd_contacts_find(zd_contacts *it, int is_start)
+{
+    const zd_system *full = it->phases->full;
+    int status = find_normals(it, is_start);
+    for (int is_own = 0; is_own < 2; is_own++)      /* friction of contacts, other friction */
+        for (int g = 0; g < full->groups && !status; g++) {
             const zd_group *group = full->group + g;
-            if (group->kind != (pass ? ZD_FRICTION : ZD_ONE_SIDED)) continue;
-            int normal = -1;
-            double gap = 0;
-            if (!pass) {
-                gap = group->sign * (Phi[group->first] - group->value);
-                if (is_start && gap < -ZD_PENETRATION * zd_group_scale(phases, group)) return refuse_start(it, group, gap);
-                if (it->next[g] == ZD_OPEN && gap > (is_start ? ZD_PENETRATION : TOUCHING) * zd_group_scale(phases, group)) continue;
-            } else if (group->normal) {
-                if (pass > 1) continue;
-                for (normal = it->normals; normal > 0 && it->group[normal - 1] != group->normal - 1;) normal--;
-                if (!normal) continue;
-            } else if (pass == 1) continue;
-            else normal = 0;
-            if (it->count == ZD_MAX_CANDIDATES) {
-                snprintf(it->run->outcome.message, ZD_MESSAGE, "at most %d contacts and frictions may change at one instant",
-                         ZD_MAX_CANDIDATES);
-                return ZD_SEVERAL_MOTIONS;
-            }
-            it->group[it->count] = g;
-            it->gap[it->count] = gap;
-            it->sign[it->count] = pass ? 1 : group->sign;
-            it->row[it->count] = (zd_candidate){normal, {group->friction[0], group->friction[1]}, ZD_OPEN};
-            it->ends[it->count] = find_end(it, g);
-            it->count++;
+            int normal = is_own ? 0 : it->normals;
+            if (group->kind != ZD_FRICTION || (group->normal == 0) != is_own) continue;
+            while (normal > 0 && it->group[normal - 1] != group->normal - 1) normal--;
             it->next[g] = ZD_OPEN;
-            it->normals += !pass;
+            if (normal || is_own) status = add_candidate(it, g, normal, 0);
         }
-    return ZD_DONE;
+    return status;
 }
 
 int zd_contacts_find_loads(zd_contacts *it)

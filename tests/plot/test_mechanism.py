@@ -69,9 +69,10 @@ def valve():
 
 
 def knob():
-    """A body without inertia on a driven hinge, and a block before a stop."""
+    """A body without inertia on a driven hinge, a block before a stop, and a particle above a step."""
     m = zd.Mechanism("knob")
     m.motor("drive", m.revolute("turn", m.ground, m.body("eye", 0.1), at=(0, 0)), angle=0.0)
+    m.contact("step", m.particle("crumb", 1.0, at=(0, 1)), m.ground.segment((-1, 0), (1, 0)))
     m.stop("end", m.prismatic("slide", m.ground, m.body("block", 0.1, 1.0), at=(1, 0), axis=(1, 0)).displacement, upper=1.0)
     return m
 

@@ -32,7 +32,7 @@
 #include "terms.h"
 
 /* Changes with any declaration here and in these headers that compiled code depends on. */
-enum { ZD_INTERFACE_VERSION = 10 };
+enum { ZD_INTERFACE_VERSION = 11 };
 
 /* ---- measures, inputs, groups ---- */
 
@@ -118,7 +118,7 @@ typedef struct zd_reading {
  * active. With g = sign (Phi - value) the gap of a one-sided row, its force on g is N = -sign lambda. */
 enum zd_group_kind {
     ZD_TWO_SIDED,           /* rows of a joint that is released and joined, all holonomic or all nonholonomic */
-    ZD_ONE_SIDED,           /* one holonomic row: g >= 0, N >= 0, and one of them zero */
+    ZD_ONE_SIDED,           /* one holonomic row: g >= 0, N >= 0, and one of them zero; within a range, where it has one */
     ZD_FRICTION             /* one row, a slip velocity C v + Phi_t: zero, or a force against it. Its Phi is not read. */
 };
 
@@ -135,6 +135,10 @@ typedef struct zd_group {
                              * number, at most 3; 0: a fixed bound */
     double load_factor[3];  /* factors of these multipliers */
     int is_largest;         /* 1: the load is the largest of their magnitudes; 0: their norm */
+    int range;              /* ZD_ONE_SIDED: 1 + holonomic row, in a group that is not active, whose Phi is a coordinate along the shape that
+                             * is touched; 0: that is unbounded */
+    double lower, upper;    /* range of this coordinate: beside it, and where it has been entered beyond the gap, there is no contact */
+    int other;              /* ZD_ONE_SIDED with a range: 1 + group of the other side of the same shape; 0: none */
     double restitution;     /* ZD_ONE_SIDED: coefficient of restitution, 0 to 1 */
     double friction[2];     /* ZD_FRICTION: static and sliding: coefficients of the load, or with a fixed bound N or N m */
 } zd_group;

@@ -108,7 +108,9 @@ static int measure_is_right(const tables *of, int i, zd_complaint to)
         return sum_is_right(of, measure) || zd_complain(to, "measure %s: the entries that it measures must exist", measure->name);
     const int kind = measure->kind, count = count_of(of, kind), index = measure->index;
     const int size = kind <= ZD_ACCELERATIONS || kind >= ZD_FORCE_SUM ? measure->size : 1;
-    const int last = kind == ZD_DRIVE_VALUE && zd_is_in(index, count) ? of->elements->relation[index].terms : kind == ZD_JOINT_TORQUE;
+    const int last = kind == ZD_DRIVE_VALUE && zd_is_in(index, count) ? of->elements->relation[index].terms
+                   : kind == ZD_JOINT_FORCE                           ? count - 1 - index
+                                                                      : kind == ZD_JOINT_TORQUE;
     return (size > 0 && zd_is_in(index, count) && index + size <= count && zd_is_in(measure->term, last + 1)) ||
            zd_complain(to, "measure %s: the entries that it measures must exist", measure->name);
 }
@@ -118,8 +120,9 @@ static int group_is_right(const tables *of, int i, zd_complaint to)
     const zd_element_group *group = of->elements->group + i;
     const int owners = group->owner == ZD_OF_JOINT ? of->joints : of->elements->relations;
     return (zd_is_in(group->owner, ZD_OF_RELATION + 1) && zd_is_in(group->index, owners) && zd_is_in(group->kind, ZD_FRICTION + 1) &&
-            zd_is_in(group->normal, of->elements->groups + 1) && (!group->loads || zd_is_in(group->load_joint, of->joints))) ||
-           zd_complain(to, "group %s: its kind, its joint or relation, and those of its load must exist", group->name);
+            zd_is_in(group->normal, of->elements->groups + 1) && (!group->loads || zd_is_in(group->load_joint, of->joints)) &&
+            zd_is_in(group->range, of->elements->relations + 1) && zd_is_in(group->other, of->elements->groups + 1)) ||
+           zd_complain(to, "group %s: its kind, joint, relation, load, range and other side must exist", group->name);
 }
 
 /* True if relations, generalized forces and measures refer to existing marker quantities and joints; otherwise writes which one does not. */

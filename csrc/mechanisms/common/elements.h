@@ -55,7 +55,8 @@ enum zd_output_kind {
     ZD_VALUES,                  /* values of `size` marker quantities from `index` on; depends on positions */
     ZD_RATES,                   /* their rates; depends on velocities */
     ZD_ACCELERATIONS,           /* their second derivatives; depends on accelerations */
-    ZD_JOINT_FORCE,             /* N: force of the first body on the second at the joint's point */
+    ZD_JOINT_FORCE,             /* N: force of the first body on the second at the joint's point; with those of the `term` joints that follow,
+                                 * the parts of one contact */
     ZD_JOINT_TORQUE,            /* N m */
     ZD_JOINT_TENSION,           /* N: force of the first row of joint `index`, positive in tension */
     ZD_FORCE_VALUE,            /* value of generalized force `index`; evaluated with the accelerations, although it does not depend on them */
@@ -85,8 +86,8 @@ typedef struct zd_output_spec {
     int size;                   /* number of marker quantities (values, rates, accelerations), of generalized forces (sums of them), of
                                  * what a formula reads, or of the terms of sums of marker quantities */
     double scale;               /* factor of the measured value: -1 for tensions of springs */
-    int term;                   /* for drive values: term of the relation, or their number, for the value; for joint torques 1: about the
-                                 * point of the first body; otherwise 0 */
+    int term;                   /* for drive values: term of the relation, or their number, for the value; for forces of joints the number of
+                                 * further joints; for joint torques 1: about the point of the first body; otherwise 0 */
 } zd_output_spec;
 
 /* User function, computed outside the core; k is the number of its terms. Reactions that it reads follow its terms in x. For a generalized
@@ -119,6 +120,8 @@ typedef struct zd_element_group {
     int is_largest;
     double scale, value, restitution;
     double friction[2];
+    int range, other;           /* range: 1 + relation */
+    double lower, upper;
 } zd_element_group;
 
 enum { ZD_MAX_LEAST = 200 };       /* largest number of constraints for which reactions are the least ones: work grows with its cube */

@@ -78,8 +78,13 @@ static int measure_reaction(const zd_measuring *self, const zd_output_spec *meas
     const zd_readings *of = self->readings;
     const int is_torque = measure->kind == ZD_JOINT_TORQUE, n = is_torque ? self->numerics->torques : self->numerics->forces;
     double wrench[ZD_WRENCH_SIZE] = {0}, r[ZD_WRENCH_FORCE] = {0}, *F = wrench;
-    const int status = self->numerics->reaction(of->mechanism, of->frame, measure->index, at, wrench);
-    if (measure->term) self->numerics->apart(of->mechanism, of->frame, measure->index, r);
+    int status = self->numerics->reaction(of->mechanism, of->frame, measure->index, at, wrench);
+    for (int i = 1; !is_torque && i <= measure->term && !status; i++) {
+        double more[ZD_WRENCH_SIZE] = {0};
+        status = self->numerics->reaction(of->mechanism, of->frame, measure->index + i, at, more);
+        for (int k = 0; k < ZD_WRENCH_FORCE; k++) F[k] += more[k];
+    }
+    if (is_torque && measure->term) self->numerics->apart(of->mechanism, of->frame, measure->index, r);
     const double moment[] = {r[1] * F[2] - r[2] * F[1], r[2] * F[0] - r[0] * F[2], r[0] * F[1] - r[1] * F[0]};
     for (int k = 0; k < n; k++) value[k] = is_torque ? F[ZD_WRENCH_FORCE + k] + moment[n == 1 ? 2 : k] : F[k];
     return status;

@@ -68,6 +68,18 @@ static const zd_plane_joint_kind joints[] = {
         .takes_axis = 1, .takes_length = 1,
         .at_contact = 1,
     },
+    /* Round body on a circle of the first body: the distance of their centres, and the velocity around it. The length is negative inside. */
+    {
+        .card = {.name = "circle", .summary = "Rolls a round body on a circle of the first body without slip.",
+                 .equations = "(3), (5)"},
+        .rows = 2,
+        .row = {
+            {.quantity = ZD_PLANE_DISTANCE, .zero = ZD_ZERO_ALONG},
+            {.quantity = ZD_PLANE_ORBIT, .rolls = 1, .nonholonomic = 1},
+        },
+        .takes_length = 1,
+        .at_contact = 1,
+    },
     /* Knife edge, as a skate or a blade: a point has no velocity across its axis. First and second are the body that it belongs to. */
     {
         .card = {

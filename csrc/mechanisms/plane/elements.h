@@ -52,6 +52,7 @@ enum zd_plane_quantity_kind {
     ZD_PLANE_SKID,          /* m: the same along n */
     /* m: only a rate, along e, which is fixed in global axes: the velocity of Q minus that of the first body there. */
     ZD_PLANE_SHEAR,
+    ZD_PLANE_ORBIT,         /* m: the same with n along Q - P: how fast Q runs around P, clockwise, as seen from the first body */
     ZD_PLANE_QUANTITIES
 };
 
@@ -85,8 +86,8 @@ typedef struct zd_plane_joint_kind {
     enum zd_plane_quantity_kind quantity;           /* its kind */
     enum zd_zero zero;
     int takes_axis, takes_length;       /* 1 if the user gives an axis, a length */
-    int at_contact;                     /* 1 if its force acts at the contact, `length` below the second body's point against n; 0: at that
-                                         * point */
+    int at_contact;                     /* 1 if its force acts at the contact, `length` below the second body's point against n of its last
+                                         * row; 0: at that point */
     const char *tension;                /* name of the measure of its force along the line of its points, positive in tension; NULL: none */
 } zd_plane_joint_kind;
 

@@ -32,7 +32,16 @@ static direction direction_of(const zd_plane_quantity *quantity, const zd_plane_
 
 static int is_angle(const zd_plane_quantity *quantity) { return quantity->kind == ZD_PLANE_ANGLE; }
 static int is_distance(const zd_plane_quantity *quantity) { return quantity->kind == ZD_PLANE_DISTANCE; }
-static int is_shear(const zd_plane_quantity *quantity) { return quantity->kind == ZD_PLANE_SHEAR; }
+static int is_orbit(const zd_plane_quantity *quantity) { return quantity->kind == ZD_PLANE_ORBIT; }
+/* True of velocities relative to the first body at Q. */
+static int is_relative(const zd_plane_quantity *quantity) { return quantity->kind == ZD_PLANE_SHEAR || is_orbit(quantity); }
+/* e of an orbit: perpendicular to Q - P, so that this is e turned by a quarter turn. */
+static zd_vector around(zd_vector apart)
+{
+    const double length = sqrt(zd_inner(apart, apart));
+    return zd_turned(length > 0 ? -1 / length : 0, apart);
+}
+
 static int is_of_second_alone(const zd_plane_quantity *quantity)
 {
     return quantity->kind == ZD_PLANE_GLIDE || quantity->kind == ZD_PLANE_SKID;
@@ -51,11 +60,13 @@ zd_plane_reading zd_plane_quantity_read(const zd_plane_quantity *quantity, const
     zd_vector apart = zd_minus(zd_plus(second->at, arm2), zd_plus(first->at, arm1));
     double length = is_distance(quantity) ? sqrt(zd_inner(apart, apart)) : 0;
     /* Coincident points have no direction: a force along their distance is zero there, as that of a spring without free length is. */
-    direction along = is_distance(quantity) ? (direction){zd_times(length > 0 ? 1 / length : 0, apart), 0} : direction_of(quantity, first);
+    direction along = is_distance(quantity) ? (direction){zd_times(length > 0 ? 1 / length : 0, apart), 0}
+                      : is_orbit(quantity)  ? (direction){around(apart), 0}
+                                            : direction_of(quantity, first);
     /* moment arm of the opposite force, from the first mass centre */
-    zd_vector on_first = along.turns || is_shear(quantity) ? zd_plus(arm1, apart) : arm1;
+    zd_vector on_first = along.turns || is_relative(quantity) ? zd_plus(arm1, apart) : arm1;
     return (zd_plane_reading){
-        .value = is_shear(quantity) ? 0 : (is_distance(quantity) ? length : zd_inner(along.unit, apart)) - quantity->zero,
+        .value = is_relative(quantity) ? 0 : (is_distance(quantity) ? length : zd_inner(along.unit, apart)) - quantity->zero,
         .first = {zd_times(-1, along.unit), -zd_cross(on_first, along.unit)},
         .second = {along.unit, zd_cross(arm2, along.unit)},
     };
@@ -83,10 +94,14 @@ double zd_plane_quantity_rate(const zd_plane_quantity *quantity, const zd_plane_
         return zd_inner(unit, speed);
     }
     zd_vector apart = zd_minus(zd_plus(second->at, arm2), zd_plus(first->at, arm1));
-    if (is_shear(quantity)) {
-        zd_vector unit = direction_of(quantity, first).unit;
+    if (is_relative(quantity)) {
+        zd_vector unit = is_orbit(quantity) ? around(apart) : direction_of(quantity, first).unit;
+        zd_vector relative = zd_minus(speed, speed_of(twist1, zd_plus(arm1, apart)));
         *bias = zd_inner(unit, zd_minus(change, zd_plus(twist1->bias, zd_turned(twist1->turn, zd_minus(speed, twist1->speed)))));
-        return zd_inner(unit, zd_minus(speed, speed_of(twist1, zd_plus(arm1, apart))));
+        /* e turns with Q - P, at -e . (velocity of Q minus that of P) / |Q - P| */
+        if (is_orbit(quantity) && (unit.x != 0 || unit.y != 0))
+            *bias -= zd_inner(unit, zd_minus(speed, speed_of(twist1, arm1))) * zd_inner(apart, relative) / zd_inner(apart, apart);
+        return zd_inner(unit, relative);
     }
     speed = zd_minus(speed, speed_of(twist1, arm1));
     change = zd_minus(change, bias_of(twist1, arm1));

@@ -34,6 +34,7 @@ from .marks import (
     hatched,
     hull,
     line,
+    lines,
     rim,
     rounded,
     turning_arrow,
@@ -119,6 +120,20 @@ def road(shape: Shape, size: float) -> list[Mark]:
     """A line on which a wheel rolls, from one place to another along it: (place, place, axis)."""
     start, end, axis = shape.points
     return hatched(start - 6 * size * axis, end + 6 * size * axis, size, aligned=True)
+
+
+def surface(shape: Shape, size: float) -> list[Mark]:
+    """A bounded line that others may touch, through places (n, 2); free on its left alone if the number is not zero."""
+    steps = np.diff(shape.points, axis=0)
+    length = np.concatenate([[0.0], np.cumsum(np.hypot(*steps.T))])
+    edge = line(shape.points, width=1.4)
+    if not shape.number or not length[-1]:
+        return [edge]
+    places = np.linspace(0.0, length[-1], 2 + int(length[-1] / (1.3 * size)))[1:-1]
+    feet = np.column_stack([np.interp(places, length, each) for each in shape.points.T])
+    along = steps[np.searchsorted(length, places) - 1]
+    along = 1.3 * size * along / np.hypot(*along.T)[:, None]
+    return [edge, lines(feet, feet - (0.75 * np.column_stack([-along[:, 1], along[:, 0]]) + 0.65 * along), width=0.8)]
 
 
 def groove(shape: Shape, size: float) -> list[Mark]:
@@ -328,9 +343,9 @@ class Glyph(NamedTuple):
     directions: int
 
 
-BACK_TO_FRONT = (ring, gear, cam, ground, wall, rail, road, wheel, disc, coupled, guide, stop, link, curve, groove, rod, cylinder,
-                 damper, spring, slider, rack, block, bushing, weld, particle, roller, spiral, pin, blade, mark, motor, drive,
-                 load, load_symbol, moment)
+BACK_TO_FRONT = (ring, gear, cam, ground, wall, rail, road, surface, wheel, disc, coupled, guide, stop, link, curve, groove, rod,
+                 cylinder, damper, spring, slider, rack, block, bushing, weld, particle, roller, spiral, pin, blade, mark, motor,
+                 drive, load, load_symbol, moment)
 DIRECTED = {"drive": 2, **dict.fromkeys(("rail", "road", "stop", "wall", "groove", "guide", "slider", "block", "disc", "wheel",
                                          "gear", "ring", "rack", "blade", "weld", "load", "load_symbol"), 1)}
 GLYPHS = {draw.__name__: Glyph(draw, 1.5 + 0.05 * i, DIRECTED.get(draw.__name__, 0)) for i, draw in enumerate(BACK_TO_FRONT)}

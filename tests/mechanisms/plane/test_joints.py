@@ -45,7 +45,11 @@ def test_what_the_rows_do_is_the_joints_force_and_torque(joined):
                      for what in ("force", "torque"))
     if kind.at_contact:
         e = rotation(poses[1][2]) @ AXIS
-        point = point - joint.length * np.array([-e[1], e[0]])
+        up = np.array([-e[1], e[0]])
+        if not kind.takes_axis:
+            up = point - (poses[1][:2] + rotation(poses[1][2]) @ FIRST)
+            up /= np.linalg.norm(up)
+        point = point - joint.length * up
     on_bodies = -numbers(system, 0.0, system.p0, system.v0).C.T @ multipliers
     expected = np.zeros(6)
     for body, sign in ((2, 1), (joint.first, -1))[:1 if joint.first == joint.second else 2]:

@@ -23,7 +23,7 @@ def chain(kind, rng):
     """Each body with the one before; what is of one body alone, with itself."""
     joints = []
     for b in range(1, BODIES + 1):
-        first, angle = b if any(row.nonholonomic for row in kind.rows) else b - 1, rng.uniform(0, 6)
+        first, angle = b if all(row.nonholonomic for row in kind.rows) else b - 1, rng.uniform(0, 6)
         axis = (np.cos(angle), np.sin(angle))
         joints.append(Joint(kind.number, first, b, *rng.normal(size=(2, 2)).tolist(), axis, 0.3, 0.2, 0.1, 0.7))
     return joints

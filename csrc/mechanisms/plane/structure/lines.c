@@ -3,11 +3,13 @@
  *
  *     a value e . d,      the row [-e  -(u + d) x e | e  w x e],      and for (6)  e . dddot + 2 edot . ddot + eddot . d
  *
- * where e turns with the first body; u in the place of u + d where it does not, and of a distance |d| with e = d / |d|. What is read off the
+ * where e turns with the first body; u in the place of u + d where it does not, and of a distance |d| with e = d / |d|. An orbit has e
+ * perpendicular to d, u + d, and no value. What is read off the
  * second body alone does nothing to the first. Angles are constant rows. See marker_quantity.c for the same in any tree. */
 #include "packing.h"
 
 static int turns_along(int kind) { return kind == ZD_PLANE_ALONG || kind == ZD_PLANE_ACROSS; }
+static int is_at_second(int kind) { return turns_along(kind) || kind == ZD_PLANE_ORBIT; }
 static int is_of_second_alone(int kind) { return kind == ZD_PLANE_GLIDE || kind == ZD_PLANE_SKID; }
 
 static int has_angle(const zd_plane *mechanism, int body) { return mechanism->tree.link[body].hang == ZD_HANGS_FREE; }
@@ -46,6 +48,7 @@ static zd_vector direction_of(const zd_line *line, zd_vector axis, zd_vector apa
     case ZD_PLANE_X: return (zd_vector){1, 0};
     case ZD_PLANE_Y: return (zd_vector){0, 1};
     case ZD_PLANE_DISTANCE: return zd_times(1 / length, apart);
+    case ZD_PLANE_ORBIT: return zd_turned(-1 / sqrt(zd_inner(apart, apart)), apart);
     default: return zd_rotated(axis.x, axis.y, line->axis);
     }
 }
@@ -61,7 +64,7 @@ static zd_plane_pull pull_of(const zd_line *line, const zd_plane_frame *frame, c
     const sight at = sight_of(line, frame, p);
     const double length = line->kind == ZD_PLANE_DISTANCE ? sqrt(zd_inner(at.apart, at.apart)) : 0;
     const zd_vector e = zd_times(c, direction_of(line, frame->axis[line->first], at.apart, length));
-    const zd_vector on_first = turns_along(line->kind) ? zd_plus(at.u, at.apart) : at.u;
+    const zd_vector on_first = is_at_second(line->kind) ? zd_plus(at.u, at.apart) : at.u;
     *value = (line->kind == ZD_PLANE_DISTANCE ? c * length : zd_inner(e, at.apart)) - c * line->zero;       /* (3) */
     return (zd_plane_pull){e, -zd_cross(on_first, e), zd_cross(at.w, e)};                                          /* (5) */
 }
@@ -104,6 +107,12 @@ static double bias_of(const zd_line *line, const zd_plane_frame *frame, zd_vecto
     zd_vector speed = zd_plus((zd_vector){v2[0], v2[1]}, zd_turned(turn2, at.w)), change = zd_times(-turn2 * turn2, at.w);
     const zd_vector edot = zd_turned(turn1, e);
     if (is_of_second_alone(line->kind)) return zd_inner(e, change) + zd_inner(edot, speed);
+    if (line->kind == ZD_PLANE_ORBIT) {
+        const zd_vector from = zd_minus(speed, (zd_vector){v1[0], v1[1]});
+        const zd_vector relative = zd_minus(from, zd_turned(turn1, zd_plus(at.u, at.apart)));
+        return zd_inner(e, zd_minus(change, zd_turned(turn1, from))) -
+               zd_inner(e, zd_minus(from, zd_turned(turn1, at.u))) * zd_inner(at.apart, relative) / zd_inner(at.apart, at.apart);
+    }
     speed = zd_minus(speed, zd_plus((zd_vector){v1[0], v1[1]}, zd_turned(turn1, at.u)));
     change = zd_plus(change, zd_times(turn1 * turn1, at.u));
     const double bias = zd_inner(e, change);

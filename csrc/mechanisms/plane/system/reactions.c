@@ -13,6 +13,10 @@ static zd_vector point_of(const zd_plane *self, const zd_plane_frame *frame, int
     zd_vector point = zd_point_of(frame->pose + of->second, of->point2);
     if (!zd_plane_joint_kind_of(of->kind)->at_contact) return point;
     zd_vector up = zd_turned(1, zd_rotated(first->cosine, first->sine, (zd_vector){of->axis[0], of->axis[1]}));
+    if (!zd_plane_joint_kind_of(of->kind)->takes_axis) {
+        const zd_vector apart = zd_minus(point, zd_point_of(first, of->point1));
+        up = zd_times(1 / sqrt(zd_inner(apart, apart)), apart);
+    }
     return zd_minus(point, zd_times(of->length, up));
 }
 

@@ -10,8 +10,9 @@ import numpy as np
 from ..._private import checks
 from ..._private.types import Expression, MeasureLike
 from ...errors import WrongType, WrongValue
-from ..elements.bodies import Body, Line, Point
-from ..elements.contacts import Contact, Latch, Stop
+from ..elements.bodies import Body, Point
+from ..elements.contacts import Contact, Latch, RoundContact, Stop
+from ..elements.frames import Circle, Line
 from ..elements.immutable import amend
 from ..elements.joints import Joint
 from ..elements.measures import Measure, name_of
@@ -28,17 +29,17 @@ Friction = float | tuple[float, float]
 class ContactVerbs(Elements):
     """One-sided constraints and latches."""
 
-    def contact(self, name: str, first: Body | Point | str, shape: Line, *, radius: float = 0.0, restitution: float = 0.0,
-                friction: Friction = 0.0) -> Contact:
-        """Let a point or a round body touch a line: it may rest on it, slide, stick, lift off and bounce.
+    def contact(self, name: str, first: Body | Point | str, shape: Line | Circle, *, radius: float = 0.0,
+                restitution: float = 0.0, friction: Friction = 0.0) -> Contact:
+        """Let a point or a round body touch a shape of another: it may rest on it, slide, stick, roll, lift off and bounce.
 
         Parameters
         ----------
         name : str
         first : Point, Body or name
             The point that touches, or with `radius` the centre of the round body.
-        shape : Line
-            Line of a body by `Body.line`, free on its left side.
+        shape : Line or Circle
+            By the body that it belongs to: `Body.line`, free on its left side, `Body.segment`, `Body.circle` or `Body.arc`.
         radius : float
             Radius of the round body, in m.
         restitution : float
@@ -66,18 +67,21 @@ class ContactVerbs(Elements):
         """
         self._in_the_plane("contact")
         name = self._new_name(name, "contact")
-        if not isinstance(shape, Line):
-            raise WrongType(f"shape of {name!r} must be a line of a body, body.line(a, b), not {checks.shown(shape)}")
+        if not isinstance(shape, Line | Circle):
+            raise WrongType(f"shape of {name!r} must be one of a body, body.line(a, b), body.segment(a, b), body.circle(center, "
+                            f"radius) or body.arc(center, a, b), not {checks.shown(shape)}")
         radius = checks.number(f"radius of {name!r}", radius, least=0)
+        if isinstance(shape, Circle) and not shape.outside and not radius < shape.radius:
+            raise WrongValue(f"radius of {name!r} must be less than that of the hole, and {radius:g} is not less than "
+                             f"{shape.radius:g}", "out-of-range")
         given = self._named("first", first)
         point = given.point((0.0, 0.0)) if isinstance(given, Body) and given.turns else self._point("first", given)
-        line = shape.body.point(shape.start)
-        one, other = self._different(name, line, point)
+        one, other = self._different(name, shape.body.point(shape.start), point)
         self._turning(name, "line of", one.body)
         if radius or any(_friction(name, friction)):
             self._turning(name, "friction or radius of", *(body for body in (other.body,) if radius))
-        normal = np.array([-shape.direction[1], shape.direction[0]])
-        return self._add(Contact(name, one, other, radius, normal, _restitution(name, restitution), _friction(name, friction)))
+        kind = Contact if isinstance(shape, Line) else RoundContact
+        return self._add(kind(name, one, other, radius, shape, _restitution(name, restitution), _friction(name, friction)))
 
     def stop(self, name: str, measure: Measure | str, *, lower: float | None = None, upper: float | None = None,
              restitution: float = 0.0) -> Stop:

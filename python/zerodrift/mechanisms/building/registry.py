@@ -17,8 +17,9 @@ from ..._private.verbs import verb
 from ...errors import WrongName, WrongType, WrongValue
 from ...laws.table import Table
 from ...systems.user_callables import arguments
-from ..elements.bodies import Body, Ground, Link, Particle, Point, place
+from ..elements.bodies import Body, Ground, Link, Particle, Point
 from ..elements.forces import Motor
+from ..elements.frames import place
 from ..elements.joints import Joint
 from ..elements.measures import Measure
 from ..elements.own_measures import OwnMeasure

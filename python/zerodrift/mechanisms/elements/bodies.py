@@ -9,9 +9,9 @@ import numpy as np
 
 from ..._private import checks
 from ..._private.types import ArrayLike
-from ...errors import WrongAttribute, WrongType, WrongValue
+from ...errors import WrongAttribute, WrongType
 from . import columns
-from .frames import Pose
+from .frames import Pose, Shapes, place
 from .immutable import Fixed
 from .measures import Measure, scalar, vector
 from .numbers import AS_GIVEN, Numbers
@@ -81,15 +81,7 @@ class Point(Fixed):
         return f"<point {self.name or tuple(map(float, self.local))} of {self.body.name}>"
 
 
-class Line(NamedTuple):
-    """Unbounded line of a body, free to the left of ``a -> b``; `Body.line` makes it."""
-
-    body: Any
-    start: np.ndarray       # (2,) in the body's frame, m
-    direction: np.ndarray   # (2,) of length one
-
-
-class Body(Fixed):
+class Body(Fixed, Shapes):
     """A rigid body; `Mechanism.body` makes it.
 
     Attributes
@@ -154,29 +146,6 @@ class Body(Fixed):
         size = self.dimension
         local = checks.vector("local", local, size) if at is None else self.pose.local(place("at", at, size))
         return self._register(Point(self, local, name))
-
-    def line(self, start: ArrayLike | Point, end: ArrayLike | Point) -> Line:
-        """The unbounded line through two places of the drawing, that moves with the body, for `Mechanism.contact`.
-
-        Parameters
-        ----------
-        start, end : array_like (2,) or Point
-            In m; what touches the line is on the left of ``start -> end``.
-
-        Returns
-        -------
-        Line
-
-        Raises
-        ------
-        ValueError
-            If both are the same place.
-        """
-        start, end = place("start", start, 2), place("end", end, 2)
-        length = np.hypot(*(end - start))
-        if not length > 0:
-            raise WrongValue("start and end of a line must be two places, not the same one", "geometry")
-        return Line(self, self.pose.local(start), self.pose.local_direction((end - start) / length))
 
     def properties(self, numbers: Numbers) -> MassProperties:
         """Mass, inertia and centre of mass, with parameters that may have been changed."""
@@ -306,11 +275,6 @@ class Particle(Body):
     def center(self) -> Point:
         """The particle as a point."""
         return Point(self, np.zeros(2), self.name)
-
-
-def place(argument: str, value: Any, dimension: int = 2) -> np.ndarray:
-    """Position in the drawing, (dimension,): coordinates, or the drawn position of a point."""
-    return value.drawn if isinstance(value, Point) else checks.vector(argument, value, dimension)
 
 
 def _as_it_is(point: Point) -> Point:

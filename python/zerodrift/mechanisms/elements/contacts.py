@@ -3,28 +3,37 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from .bodies import Point
+from .frames import Circle
 from .immutable import Fixed
-from .joints import Rolling
+from .joints import Joint
 from .measures import Measure, scalar
 from .numbers import AS_GIVEN, Numbers
 from .switches import Switch, friction_with, of_friction
 
 
-class Contact(Rolling):
+class Bounds(NamedTuple):
+    """Coordinate along a bounded shape, from its first point along an axis of its body, and the limits of it in m."""
+
+    axis: tuple[float, float]
+    limits: tuple[float, float]
+
+
+class Contact(Joint):
     """Contact of a point or a round body with a line, `Mechanism.contact`.
 
     Attributes
     ----------
     name : str
     first, second : Point
-        A point of the line, and the point or the centre of the round body.
+        The start of the line, and the point or the centre of the round body.
     radius : float
         In m; 0: a point.
+    shape : Line
     restitution : float
         Coefficient of restitution.
     friction : tuple of float
@@ -33,12 +42,51 @@ class Contact(Rolling):
 
     unswitched, switched = None, None
     kind, table = "contact", "rolling"
-    takes = ("radius", "normal", "restitution", "friction")    # type: ignore[assignment]
+    takes = ("radius", "shape", "restitution", "friction")
+    shape: Any
+    other = 0           # of a part: from its first switch to that of the other side
 
-    def __init__(self, name: str, first: Point, second: Point, radius: float, normal: np.ndarray, restitution: float,
+    def __init__(self, name: str, first: Point, second: Point, radius: float, shape: Any, restitution: float,
                  friction: tuple[float, float]) -> None:
-        super().__init__(name, first, second, radius, normal)
-        self.restitution, self.friction = restitution, friction
+        super().__init__(name, first, second, axis=shape.direction)
+        self.radius, self.shape, self.restitution, self.friction = radius, shape, restitution, friction
+
+    @property
+    def parts(self) -> tuple[Joint, ...]:
+        """Itself; of a segment its left and right side, and for a round body its ends."""
+        line = self.shape
+        if line.length == np.inf:
+            return (self,)
+        start, end = (np.asarray(at) for at in (line.start, line.start + line.length * line.direction))
+        back = line._replace(start=end, direction=-line.direction)
+        sides = [self._part(Contact, f"{self.name} {word}", each) for word, each in (("left", line), ("right", back))]
+        count = len(list(sides[0].switches(AS_GIVEN))) + 1      # and that of its range
+        sides[0].other, sides[1].other = count, -count
+        return (*sides, *self._ends(start, end))
+
+    def _part(self, kind: type[Contact], name: str, shape: Any) -> Any:
+        part = kind(name, Point(shape.body, shape.start), self.second, self.radius, shape, self.restitution, self.friction)
+        part.owner = self
+        return part
+
+    def _ends(self, start: np.ndarray, end: np.ndarray) -> list[Any]:
+        """Parts that a round body touches beside a bounded shape."""
+        return [self._part(RoundContact, f"{self.name} {word}", Circle(self.shape.body, at, 0.0, True, np.array([1.0, 0.0])))
+                for word, at in (("start", start), ("end", end)) if self.radius]
+
+    def bounds(self, numbers: Numbers) -> Bounds | None:
+        """Range of the shape; None if it is unbounded."""
+        axis, length = self.shape.direction, self.shape.length
+        return None if length == np.inf else Bounds((float(axis[0]), float(axis[1])), (0.0, length))
+
+    @property
+    def is_bounded(self) -> bool:
+        """False of unbounded lines."""
+        return isinstance(self.shape, Circle) or self.shape.length < np.inf
+
+    def length_with(self, numbers: Numbers) -> float:
+        """Radius of the round body in m."""
+        return numbers(self.owner, "radius", self.radius)
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
@@ -46,9 +94,64 @@ class Contact(Rolling):
 
     def switches(self, numbers: Numbers) -> Iterator[Switch]:
         """Its switched constraints: the gap, and the slip."""
-        yield Switch(self.name, "one-sided", restitution=numbers(self, "restitution", self.restitution))
+        yield Switch(self.name, "one-sided", restitution=numbers(self.owner, "restitution", self.restitution), sign=self.sign,
+                     other=self.other)
         yield Switch(self.name, "friction" if any(self.friction) else "absent", component=1, normal=1,
-                     friction=friction_with(numbers, self, "friction", self.friction))
+                     friction=friction_with(numbers, self.owner, "friction", self.friction))
+
+    sign = 1            # of its gap
+    owner = property(lambda self: vars(self).get("_owner", self), lambda self, owner: vars(self).update(_owner=owner),
+                     doc="The contact of which it is a part, or itself.")
+
+
+class RoundContact(Contact):
+    """Contact of a point or a round body with a circle, or with an arc of it, `Mechanism.contact`.
+
+    Attributes
+    ----------
+    name : str
+    first, second : Point
+        The centre of the circle, and the point or the centre of the round body.
+    radius : float
+        In m; 0: a point.
+    shape : Circle
+    restitution : float
+        Coefficient of restitution.
+    friction : tuple of float
+        Coefficients of static and of sliding friction.
+    """
+
+    kind, table = "contact", "circle"
+
+    @property
+    def parts(self) -> tuple[Joint, ...]:
+        """Itself, and of an arc its ends, if a round body touches it."""
+        circle = self.shape
+        if circle.half_angle == np.pi:
+            return (self,)
+        towards = complex(*circle.direction) * circle.radius
+        turned = (towards * np.exp(1j * angle) for angle in (-circle.half_angle, circle.half_angle))
+        return (self, *self._ends(*(circle.start + np.array([at.real, at.imag]) for at in turned)))
+
+    @property
+    def sign(self) -> int:      # type: ignore[override]
+        """1 outside of the circle, -1 inside."""
+        return 1 if self.shape.outside else -1
+
+    def length_with(self, numbers: Numbers) -> float:
+        """Radius of the round body in m, negative inside of the circle."""
+        return self.sign * super().length_with(numbers)
+
+    def offset_as_drawn(self, numbers: Numbers) -> float:
+        """Distance of the centres where they touch, in m."""
+        return self.shape.radius + self.length_with(numbers)
+
+    def bounds(self, numbers: Numbers) -> Bounds | None:
+        """Range of an arc, from the chord between its ends outward; None of a circle."""
+        half_angle, axis = self.shape.half_angle, self.shape.direction
+        if half_angle == np.pi:
+            return None
+        return Bounds((float(axis[0]), float(axis[1])), (self.offset_as_drawn(numbers) * float(np.cos(half_angle)), np.inf))
 
 
 class Stop(Fixed):

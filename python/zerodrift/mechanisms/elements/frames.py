@@ -1,4 +1,4 @@
-"""Vectors, poses and rotations in the plane and in space."""
+"""Vectors, poses and rotations in the plane and in space, and shapes of bodies that others may touch."""
 
 from __future__ import annotations
 
@@ -109,3 +109,135 @@ def triple(vector: Any) -> tuple[float, float, float]:
     """Vector as three floats, for the core's tables."""
     x, y, z = vector
     return float(x), float(y), float(z)
+
+
+# ---- shapes of bodies that others may touch ----
+
+
+class Line(NamedTuple):
+    """Straight line of a body, free to the left of ``a -> b``; `Body.line` and `Body.segment` make it."""
+
+    body: Any
+    start: np.ndarray       # (2,) in the body's frame, m
+    direction: np.ndarray   # (2,) of length one
+    length: float = np.inf  # m: of a segment, which is free on both sides
+
+
+class Circle(NamedTuple):
+    """Circle of a body, or an arc of it; `Body.circle` and `Body.arc` make it."""
+
+    body: Any
+    start: np.ndarray       # (2,) its centre in the body's frame, m
+    radius: float           # m
+    outside: bool           # True: what touches it is outside
+    direction: np.ndarray   # (2,) of length one, from the centre to the middle of an arc
+    half_angle: float = np.pi       # rad: of an arc, from its middle to either end
+
+
+class Shapes:
+    """Methods of a body that make its shapes."""
+
+    pose: Pose
+
+    def line(self, start: Any, end: Any) -> Line:
+        """The unbounded line through two places of the drawing, that moves with the body, for `Mechanism.contact`.
+
+        Parameters
+        ----------
+        start, end : array_like (2,) or Point
+            In m; what touches the line is on the left of ``start -> end``.
+
+        Returns
+        -------
+        Line
+
+        Raises
+        ------
+        ValueError
+            If both are the same place.
+        """
+        start, end = place("start", start, 2), place("end", end, 2)
+        length = np.hypot(*(end - start))
+        if not length > 0:
+            raise WrongValue("start and end of a line must be two places, not the same one", "geometry")
+        return Line(self, self.pose.local(start), self.pose.local_direction((end - start) / length))
+
+    def segment(self, start: Any, end: Any) -> Line:
+        """The line from one place of the drawing to another, that moves with the body, for `Mechanism.contact`.
+
+        It has two sides and two ends: a round body rolls over them, a point passes beside them.
+
+        Parameters
+        ----------
+        start, end : array_like (2,) or Point
+            In m.
+
+        Returns
+        -------
+        Line
+
+        Raises
+        ------
+        ValueError
+            If both are the same place.
+        """
+        line = self.line(start, end)
+        return line._replace(length=float(np.hypot(*(place("end", end, 2) - place("start", start, 2)))))
+
+    def circle(self, center: Any, radius: float, *, outside: bool = True) -> Circle:
+        """A circle that moves with the body, for `Mechanism.contact`.
+
+        Parameters
+        ----------
+        center : array_like (2,) or Point
+            In the drawing, in m.
+        radius : float
+            In m; 0: a point.
+        outside : bool
+            True: bodies touch it from outside, as a disc; False: from inside, as a hole.
+
+        Returns
+        -------
+        Circle
+
+        Raises
+        ------
+        ValueError
+            For a radius below zero.
+        """
+        radius = checks.number("radius of a circle", radius, **({"least": 0} if outside else {"above": 0}))
+        return Circle(self, self.pose.local(place("center", center, 2)), radius, bool(outside), np.array([1.0, 0.0]))
+
+    def arc(self, center: Any, start: Any, end: Any, *, outside: bool = True) -> Circle:
+        """An arc that moves with the body, counter-clockwise from one place of the drawing to another, for `Mechanism.contact`.
+
+        It has one side; a round body rolls over its ends, a point passes beside them.
+
+        Parameters
+        ----------
+        center, start, end : array_like (2,) or Point
+            In m; the radius is the distance of `start` from the centre, and `end` lies in the direction of its other end.
+        outside : bool
+            True: bodies touch it from outside, as a cam; False: from inside, as a bowl.
+
+        Returns
+        -------
+        Circle
+
+        Raises
+        ------
+        ValueError
+            If a place is the centre, or both are in the same direction.
+        """
+        middle, *ends = (place(name, at, 2) for name, at in (("center", center), ("start", start), ("end", end)))
+        (first, last) = (complex(*(each - middle)) for each in ends)
+        if not first or not last or not (angle := float(np.angle(last / first)) % (2 * np.pi)):
+            raise WrongValue("start and end of an arc must be in two directions from its centre", "geometry")
+        towards = first / abs(first) * np.exp(0.5j * angle)
+        return Circle(self, self.pose.local(middle), abs(first), bool(outside),
+                      self.pose.local_direction(np.array([towards.real, towards.imag])), angle / 2)
+
+
+def place(argument: str, value: Any, dimension: int = 2) -> np.ndarray:
+    """Position in the drawing, (dimension,): coordinates, or the drawn position of a point."""
+    return value.drawn if hasattr(value, "drawn") else checks.vector(argument, value, dimension)

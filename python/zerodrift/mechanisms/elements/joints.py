@@ -22,7 +22,8 @@ from .numbers import AS_GIVEN, Numbers
 from .switches import Switch, Switched
 from .user_functions import Law
 
-JOINTS = joint_kinds()
+TABLE = joint_kinds()
+JOINTS = {name: kind for name, kind in TABLE.items() if name != "circle"}     # with a verb; the others are of contacts alone
 
 
 class Joint(Fixed):
@@ -50,7 +51,7 @@ class Joint(Fixed):
         """Sets class attributes from the entry of the core's table, except those that the class defines."""
         if not cls.kind:        # joints in space have a table of their own
             return
-        cls.row = JOINTS[cls.table or cls.kind]
+        cls.row = TABLE[cls.table or cls.kind]
         cls.coordinate = cls.row.coordinate
         cls.is_of_one_body = all(each.quantity in ("glide", "skid") for each in cls.row.rows)
         said = {"takes": _taken(cls.row), **{name: scalar(name, doc) for name, doc in _measures(cls.row).items()},
@@ -86,6 +87,11 @@ class Joint(Fixed):
         return self._switched.switches(self, numbers) if self._switched else iter(())
 
     @property
+    def parts(self) -> tuple[Joint, ...]:
+        """Entries of the core's table of joints, each as a joint; a contact may have several."""
+        return (self,)
+
+    @property
     def dimension(self) -> int:
         """2 in the plane, 3 in space."""
         return self.first.dimension
@@ -119,6 +125,8 @@ class Joint(Fixed):
 
     def offset_as_drawn(self, numbers: Numbers) -> float:
         """Offset of the second point from the first along the axis in the drawing, in m; its displacement counts from there."""
+        if self.axis is None:
+            return 0.0
         apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
         axis = self.axis_as_drawn()
         return columns.plain(apart[0] * axis[0] + apart[1] * axis[1])

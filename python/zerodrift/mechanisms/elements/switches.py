@@ -24,6 +24,7 @@ class Switch(NamedTuple):
     is_largest: bool = False    # True: the largest of them does
     restitution: float = 0.0
     friction: tuple[float, float] = (0.0, 0.0)
+    other: int = 0              # from this switch to that of the other side of the shape; 0: none
 
 
 def of_friction(word: str, values: tuple[float, float]) -> dict[str, float]:

@@ -15,7 +15,7 @@ from ..._private.gateway.mechanisms.element_tables import OutputSpec
 from ...errors import WrongValue
 from ..elements.bodies import Body, Link, Point
 from ..elements.forces import Actuator, Bushing
-from ..elements.joints import holds_angle, is_hinge
+from ..elements.joints import Joint, holds_angle, is_hinge
 from ..elements.space_joints import SpaceJoint, acceleration_of, has_torque, is_at_point, speeds
 from ..elements.table_forces import TableForce
 from ..loads.group_measures import group_measures
@@ -85,11 +85,11 @@ def _positions(tables: Tables, wanted: Collection[str] | None) -> Iterator[Posit
                 yield _place(tables, point.name, point)
     for point in tables.drawing.of(Point):
         yield _place(tables, point.name, point)
-    for i, joint in enumerate(tables.joints):
+    for joint in tables.drawing.of(Joint):
         if has_coordinate(joint):
             unit = "rad" if joint.coordinate == "angle" else "m"
             yield Position(f"{joint.name}.{joint.coordinate}", unit, f"{joint.name}.speed", f"{joint.name}.acceleration",
-                           partial(_one, tables.coordinate_quantity, i))
+                           partial(_one, tables.coordinate_quantity, tables.joint_number[joint.name]))
         between = f"{joint.name}.transmission_angle"
         if (wanted is None or between in wanted) and transmission.has_one(joint, tables.joints_by_body):
             yield Position(between, "rad", None, None, partial(_one, tables.transmission_quantity, joint))
@@ -143,8 +143,10 @@ def _place(tables: Tables, name: str, of: Body | Point) -> Position:
 
 def _of_joints(tables: Tables) -> Iterator[OutputSpec]:
     """Reactions of joints."""
-    for i, joint in enumerate(tables.joints):
-        yield OutputSpec(f"{joint.name}.force", "N", "joint force", i, joint.dimension)
+    for joint in tables.drawing.of(Joint):
+        i = tables.joint_number[joint.name]
+        yield OutputSpec(f"{joint.name}.force", "N", "joint force", i, joint.dimension,
+                         term=len(joint.parts) - 1)
         if isinstance(joint, SpaceJoint):
             turns, slides = has_torque(joint.row) or bool(joint.damping), not is_at_point(joint.row)
         else:

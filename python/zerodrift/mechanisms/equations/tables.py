@@ -37,7 +37,7 @@ class Tables:
     Attributes
     ----------
     joints : list of Joint
-        In the order of the core's table.
+        In the order of the core's table; a contact may have several parts, one after another.
     inboard : list of int
         Inboard joint of each body; -1: the body is free.
     relation_names : list of str
@@ -51,9 +51,11 @@ class Tables:
     def __init__(self, drawing: Drawing, numbers: Numbers, *, in_tree: bool, starts: Mapping[str, float] | None = None) -> None:
         self.drawing, self.numbers, self.starts = drawing, numbers, starts or {}
         self.parameters = {name: numbers.changed.get(name, value) for name, value in drawing.parameters.items()}
-        self.parts, self.joints, self.inertias = drawing.parts(), drawing.of(Joint), self.masses(drawing, numbers)
+        self.parts, self.inertias = drawing.parts(), self.masses(drawing, numbers)
+        self.joints = [part for joint in drawing.of(Joint) for part in joint.parts]
         self.number = {"ground": 0, **{body.name: i for i, body in enumerate(self.parts, 1)}}
         self.joint_number = {joint.name: i for i, joint in enumerate(self.joints)}
+        self.joint_number |= {joint.name: self.joint_number[joint.parts[0].name] for joint in drawing.of(Joint)}
         self.quantities: list[Any] = []     # Quantity, in space that of space
         self.quantity_number: dict[str, int] = {}
         self.relations: list[entries.Relation] = []
@@ -148,9 +150,8 @@ class Tables:
         axis = (1.0, 0.0) if joint.axis is None else _pair(joint.axis)
         if joint.is_of_one_body:
             return entries.Joint(joint.row.number, second, second, point2, point2, axis)
-        along = joint.offset_as_drawn(self.numbers) if joint.axis is not None else 0.0
-        return entries.Joint(joint.row.number, first, second, point1, point2, axis, along, 0.0, joint.angle_as_drawn(),
-                          joint.length_with(self.numbers))
+        return entries.Joint(joint.row.number, first, second, point1, point2, axis, joint.offset_as_drawn(self.numbers), 0.0,
+                          joint.angle_as_drawn(), joint.length_with(self.numbers))
 
     # ---- marker quantities ----
 

@@ -15,8 +15,8 @@ from ..building.contact_verbs import with_switches
 from ..building.table_force_verbs import NEEDED, sides, words
 from ..building.table_joint_verbs import verb
 from ..building.table_verbs import FORCES, PLANE
-from ..elements.bodies import Line
 from ..elements.forces import Gravity
+from ..elements.frames import Circle, Line
 from ..elements.immutable import amend
 from ..elements.joints import Joint
 from ..elements.table_forces import TableForce, parameters, paths
@@ -145,13 +145,16 @@ def _rolling(m: Any, name: str, *, first: Any, second: Any, radius: Any, normal:
     amend(joint, first=line, axis=np.array([normal[1], -normal[0]]))
 
 
-def _contact(m: Any, name: str, *, first: Any, second: Any, radius: Any, normal: Any, restitution: Any, friction: Any) -> None:
-    normal, line = direction_from_json("normal", normal), point_of_body(m, first)
-    along = np.array([normal[1], -normal[0]])
-    shape = Line(line.body, line.local, along)
-    contact = m.contact(name, place_from_json(m, second), shape, radius=radius, restitution=restitution,
-                        friction=tuple(checks.vector("friction", friction, 2).tolist()))
-    amend(contact, first=line, axis=along)
+def _contact(m: Any, name: str, *, first: Any, second: Any, radius: Any, restitution: Any, friction: Any,
+             direction: Any = (1.0, 0.0), length: Any = None, ring: Any = None, outside: Any = True,
+             half_angle: Any = np.pi) -> None:
+    axis, start = direction_from_json("direction", direction), point_of_body(m, first)
+    end = np.inf if length is None else checks.number("length", length, above=0)
+    shape = Line(start.body, start.local, axis, end) if ring is None else Circle(
+        start.body, start.local, checks.number("ring", ring, least=0), checks.instance("outside", outside, bool, "True or False"),
+        axis, checks.number("half_angle", half_angle, above=0))
+    m.contact(name, place_from_json(m, second), shape, radius=radius, restitution=restitution,
+              friction=tuple(checks.vector("friction", friction, 2).tolist()))
 
 
 def _stop(m: Any, name: str, *, measure: Any, lower: Any = None, upper: Any = None, restitution: Any) -> None:

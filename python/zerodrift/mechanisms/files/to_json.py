@@ -14,6 +14,7 @@ from ..building.coupling_verbs import _Follows, _Profile, _Sum
 from ..building.table_verbs import FORCES
 from ..elements.bodies import Body, kind_of
 from ..elements.drawing import Drawing
+from ..elements.frames import Line
 from ..elements.joints import JOINTS, Coupling
 from ..elements.table_forces import ELEMENTS, TableForce, placed
 from .expressions_json import to_json
@@ -89,6 +90,17 @@ def _switched(element: Any) -> dict[str, Any]:
     """Dry friction of a joint, and whether it is joined, if it has any of them."""
     switched = getattr(element, "switched", None)
     return {"switched": switched.given(element)} if switched else {}
+
+
+def _contact(contact: Any, drawing: Drawing) -> dict[str, Any]:
+    shape = contact.shape
+    if isinstance(shape, Line):
+        given = {"direction": numbers(shape.direction), **({"length": shape.length} if shape.length < np.inf else {})}
+    else:
+        arc = {"direction": numbers(shape.direction), "half_angle": shape.half_angle} if shape.half_angle < np.pi else {}
+        given = {"ring": shape.radius, "outside": shape.outside, **arc}
+    return {**sides(contact, drawing), **given, "radius": contact.radius, "restitution": contact.restitution,
+            "friction": list(contact.friction)}
 
 
 def _stop(stop: Any, drawing: Drawing) -> dict[str, Any]:
@@ -173,7 +185,7 @@ def _table_force(force: TableForce, drawing: Drawing) -> dict[str, Any]:
 
 WRITTEN: dict[str, Callable[[Any, Drawing], dict[str, Any]]] = {
     **dict.fromkeys(JOINTS, _joint), **dict.fromkeys((kind for kind in FORCES if kind in ELEMENTS), _table_force),      # type: ignore[has-type]
-    "body": _body, "contact": _joint, "stop": _stop, "latch": _latch, "link": _link, "particle": _particle, "point": _point,
+    "body": _body, "contact": _contact, "stop": _stop, "latch": _latch, "link": _link, "particle": _particle, "point": _point,
     "gear": _linear,
     "rack_pinion": _linear, "coupler": _coupling, "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
     "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque, "measure": _measure, "gravity": _gravity,

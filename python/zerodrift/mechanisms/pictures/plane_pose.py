@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from ..elements.bodies import Body, Particle, Point
+from ..elements.contacts import Contact, RoundContact
 from ..elements.drawing import Drawing, Inertias
 from ..elements.frames import Pose, turned
 from ..elements.joints import Joint, Rolling
@@ -14,6 +15,7 @@ from ..elements.numbers import Numbers
 from .plane_outline import APART, around, attached
 
 LEVEL = 1e-12       # slope below which a direction counts as level
+SMOOTH = 24         # corners of an arc for each radian of half its angle
 
 
 class Parts:
@@ -116,10 +118,24 @@ class Posed:
         assert joint.axis is not None
         return self.direction(joint.bodies[0], joint.axis)
 
-    def contact(self, joint: Rolling) -> np.ndarray:
-        """Contact point of a wheel with its line, (2,)."""
-        down = np.array([joint.axis[1], -joint.axis[0]])
-        return self.at(joint.second) + joint.length_with(self.parts.numbers) * self.direction(joint.bodies[0], down)
+    def contact(self, joint: Rolling | Contact) -> np.ndarray:
+        """Place (2,) on the line or circle that a body rolls on or may touch, nearest to it."""
+        second, start = self.at(joint.second), self.at(joint.first)
+        if isinstance(joint, RoundContact):
+            apart = second - start
+            return start + joint.shape.radius * apart / np.hypot(*apart)
+        axis, length = self.axis(joint), joint.shape.length if isinstance(joint, Contact) else np.inf
+        along = float((second - start) @ axis)
+        return start + (along if length == np.inf else min(max(along, 0.0), length)) * axis
+
+    def surface(self, contact: Contact) -> np.ndarray:
+        """Places (n, 2) along a bounded shape that a body may touch, which is free on their left."""
+        start, axis, shape = self.at(contact.first), self.axis(contact), contact.shape
+        if not isinstance(contact, RoundContact):
+            return np.array([start, start + shape.length * axis])
+        turn = -contact.sign * shape.half_angle
+        turned = complex(*axis) * np.exp(1j * np.linspace(-turn, turn, 2 + int(SMOOTH * shape.half_angle)))
+        return start + shape.radius * np.column_stack([turned.real, turned.imag])
 
     def spoke(self, joint: Joint) -> np.ndarray:
         """The x axis of a joint's second body."""

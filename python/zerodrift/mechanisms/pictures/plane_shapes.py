@@ -12,6 +12,7 @@ import numpy as np
 
 from ...systems.shapes import Shape
 from ..elements.bodies import Body, Ground, Particle, Point
+from ..elements.contacts import Contact, RoundContact
 from ..elements.drawing import Drawing
 from ..elements.joints import Joint, holds_angle
 from ..elements.numbers import Numbers
@@ -35,10 +36,12 @@ class Sketch:
         self.sliding = [joint for joint in drawing.of(Joint) if slides(joint)]
         self.slotted = {joint.bodies[0].name for joint in self.sliding if has_groove(joint)}
         touching = [joint for joint in drawing.of(Joint) if joint.row.at_contact]
-        self.guided = [*self.sliding, *touching]
-        self.roads = list(_by_line(touching, numbers).values())
+        self.surfaces = [joint for joint in touching if isinstance(joint, Contact) and joint.is_bounded]
+        rolling = [joint for joint in touching if joint not in self.surfaces]
+        self.guided = [*self.sliding, *rolling]
+        self.roads = list(_by_line(rolling, numbers).values())
         self.has_shape = {joint.bodies[1].name for joint in self.sliding} | self.couplings.wheels
-        self.has_shape |= {joint.bodies[1].name for joint in touching if joint.length_with(numbers) > 0}
+        self.has_shape |= {joint.bodies[1].name for joint in touching if joint.length_with(numbers)}
         self.held = _held_by_ground(self.parts)
         self.kinds = [(joint, _kind(joint), is_pinned(joint)) for joint in drawing.of(Joint)]
 
@@ -101,13 +104,15 @@ class Sketch:
     def _joints(self, posed: Posed, ranges: Ranges) -> Iterator[Shape]:
         for road in self.roads:
             yield Shape("road", posed.line(road, ranges), road[0].name)
+        for contact in self.surfaces:
+            yield Shape("surface", posed.surface(contact), contact.name, float(isinstance(contact, RoundContact)))
         for joint, kind, pinned in self.kinds:
             second = posed.at(joint.second)
             if kind in ("rod", "coupled"):
                 yield Shape(kind, np.array([posed.at(joint.first), second]), joint.name)
             elif kind == "wheel":
-                radius = joint.length_with(self.parts.numbers)
-                if radius > 0:
+                radius = abs(joint.length_with(self.parts.numbers))
+                if radius:
                     yield Shape("wheel", np.array([second, posed.spoke(joint)]), joint.name, radius)
             elif kind == "slider":
                 yield from _slider(joint, posed, ranges, self.couplings.lifted.get(joint.name, 0.0))
@@ -121,10 +126,10 @@ class Sketch:
 
 def _kind(joint: Joint) -> str:
     """Kind of shape of a joint, besides its pin; "" for none."""
-    if "distance" in quantities(joint):
-        return "rod"
     if joint.row.at_contact:
         return "wheel"
+    if "distance" in quantities(joint):
+        return "rod"
     if slides(joint):
         return "slider"
     if joint.is_of_one_body:
@@ -165,7 +170,7 @@ def _held_by_ground(parts: Parts) -> list[Point]:
     for joint in parts.drawing.of(Joint):
         if joint.switched is not None and joint.switched.active is not None:
             continue        # joined anywhere
-        if "distance" in quantities(joint) or (is_pinned(joint) and joint.axis is None):
+        if _kind(joint) == "rod" or (is_pinned(joint) and joint.axis is None):
             for side in (joint.first, joint.second):
                 if side.body is ground:
                     held.setdefault(tuple(np.round(side.local_with(parts.numbers) / APART)), side)

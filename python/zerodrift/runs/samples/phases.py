@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-WORDS = {"one-sided": ("open", "closed", "", "", "closed"), "friction": ("", "sticking", "sliding", "sliding", "sticking"),
+WORDS = {"one-sided": ("open", "closed", "", "", "closed", "open"),
+         "friction": ("", "sticking", "sliding", "sliding", "sticking"),
          "two-sided": ("released", "joined", "", "", "joined"), "absent": ("", "", "", "", "")}
 IMPACTS = np.dtype([("t", float), ("name", "U64"), ("impulse", float), ("energy_lost", float)])
 

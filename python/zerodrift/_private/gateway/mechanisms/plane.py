@@ -18,7 +18,7 @@ from .element_tables import ZERO, GeneralizedForce, Group, OutputSpec, Relation,
 
 QUANTITY_KINDS = {"x": lib.ZD_PLANE_X, "y": lib.ZD_PLANE_Y, "angle": lib.ZD_PLANE_ANGLE, "along": lib.ZD_PLANE_ALONG,
                   "across": lib.ZD_PLANE_ACROSS, "distance": lib.ZD_PLANE_DISTANCE, "glide": lib.ZD_PLANE_GLIDE,
-                  "skid": lib.ZD_PLANE_SKID, "shear": lib.ZD_PLANE_SHEAR}
+                  "skid": lib.ZD_PLANE_SKID, "shear": lib.ZD_PLANE_SHEAR, "orbit": lib.ZD_PLANE_ORBIT}
 ONE: Any = 1.0
 INBOARD_TYPES = {lib.ZD_NOT_INBOARD: None, lib.ZD_TURNS: "turns", lib.ZD_SLIDES: "slides", lib.ZD_FIXED: "fixed"}
 ZEROS = {lib.ZD_ZERO_NONE: None, lib.ZD_ZERO_ALONG: "along", lib.ZD_ZERO_ACROSS: "across", lib.ZD_ZERO_ANGLE: "angle",
