@@ -444,6 +444,11 @@ def click_on(browser, name):
     browser.evaluate(f"document.getElementById('{name}').click()")
 
 
+def point_joints(browser):
+    """Pins on the ground."""
+    return [each for each in model(browser)["elements"] if each["kind"] == "revolute" and isinstance(each["first"], dict)]
+
+
 def motion(browser):
     return browser.evaluate("document.getElementById('count').textContent.split('\\n')")
 
@@ -505,6 +510,14 @@ def test_what_is_undone_is_done_again_and_an_empty_field_is_an_error(browser, se
         field.value = " "; field.dispatchEvent(new Event("change")); })()""")
     assert told(browser) == "along the link, m cannot be empty: A number is needed"
     assert model(browser)["elements"][-1] == point
+    typed = """(() => { const parts = document.getElementById("parts"); parts.value = "O";
+        parts.dispatchEvent(new Event("change"));
+        const field = [...document.querySelectorAll("#values label")].find(each => each.textContent.startsWith("x, m")).lastChild;
+        field.value = "0.25"; field.dispatchEvent(new Event("change")); })()"""
+    browser.evaluate(typed.replace('"O"', json.dumps(next(each["name"] for each in point_joints(browser)))))
+    assert point_joints(browser)[0]["first"]["local"] == pytest.approx([0.25, 0.0], abs=1e-9)
+    assert " on upper" in browser.evaluate("document.getElementById('reactions').textContent")
+    click_on(browser, "undo")
     draw(browser, "link", (0.0, 0.4), (0.2, 0.6))
     assert "nothing joins link1 to the ground" in motion(browser)
     assert browser.errors == []
@@ -567,6 +580,22 @@ def test_the_graph_is_read_by_the_mouse_and_moves_the_picture(browser, server):
     sizes = np.linalg.norm(zd.simulate(MECHANISMS["four-bar"](), 2 * np.pi / 3, step=1e-3)["A.force"], axis=1)
     told = browser.evaluate("document.getElementById('turn-hint').textContent")
     assert float(re.search(r"largest A.force: ([-\d.]+) N at", told)[1]) == pytest.approx(sizes.max(), rel=1e-3)
+    assert browser.errors == []
+
+
+@needs_chromium
+def test_travel_and_speed_of_a_slider_are_read(browser, server):
+    """A slider-crank against its closed form."""
+    m = live.drawn()["slider-crank"]
+    opened(browser, f"{server}#{address(m)}")
+    browser.until("zerodrift.board.turn !== null")
+    head, *rows = browser.evaluate("zerodrift.table()").splitlines()
+    names, values = head.replace('"', "").split(","), np.array([[float(each) for each in row.split(",")] for row in rows])
+    t, travel, speed = (values[:, names.index(each)] for each in ("t [s]", "guide.displacement [m]", "guide.speed [m/s]"))
+    r, rod, turn = np.hypot(0.2, 0.3), np.hypot(1.0, 0.3), np.arctan2(0.3, 0.2) + 5.0 * t
+    place = r * np.cos(turn) + np.sqrt(rod**2 - (r * np.sin(turn))**2)
+    assert travel - travel[0] == pytest.approx(place - place[0], abs=1e-8)
+    assert speed[1:-1] == pytest.approx(np.gradient(place, t)[1:-1], abs=1e-6)
     assert browser.errors == []
 
 

@@ -191,6 +191,12 @@ function isIdle(name) {
   return what === "torque" && element?.kind === "revolute" && !element.damping && !ofKind(board.model, "motor").some(({joint}) => joint === of);
 }
 
+// Name of a force with the body on which a joint exerts it.
+function onBody(name) {
+  const [of, what] = name.split("."), element = elementNamed(board.model, of);
+  return what === "force" && element && isJoint(element) ? `${name} on ${bodyOf(element.second)}` : name;
+}
+
 function showReactions() {
   const body = byId("reactions"), m = board.mechanism, rows = m ? m.measures.filter((name) => !name.endsWith(".power") && !isIdle(name)) : [];
   if (body.rows.length !== rows.length) body.replaceChildren(...rows.map(() => { const row = document.createElement("tr"); row.append(document.createElement("th"), document.createElement("td")); row.firstChild.scope = "row"; return row; }));
@@ -199,7 +205,7 @@ function showReactions() {
     try {
       text = `${[...read(m, name)].map(digits).join(", ")} ${unit(m, name)}`;
     } catch { /* a singular pose */ }
-    body.rows[i].cells[0].textContent = name;
+    body.rows[i].cells[0].textContent = onBody(name);
     body.rows[i].cells[1].textContent = text;
   });
 }
@@ -478,7 +484,7 @@ function lockedAt(error, m = board.mechanism) {
 // ---- over a turn: paths of points, and graphs of the chosen part ----
 
 const SAMPLES = 360, FREE = 2;      // of a turn; s, where no motor has a speed
-const NOTHING = {to: FREE, lines: [], paths: [], poses: [], told: ""}, turnOf = () => board.turn ?? NOTHING, linesOf = (name) => turnOf().lines.filter((line) => line.of === name);
+const NOTHING = {to: FREE, lines: [], paths: [], poses: [], told: ""}, turnOf = () => board.turn ?? NOTHING, linesOf = (name) => turnOf().lines.filter((line) => line.of === name || line.body === name);
 
 // One turn of the first motor with a speed, otherwise two seconds, by a mechanism of its own: as far as it gets.
 function recordTurn() {
@@ -497,7 +503,16 @@ function recordTurn() {
       const size = read(m, name).length, of = name.replace(/\.[^.]*$/, "");
       for (let k = 0; k < size; k++) add(of, size > 1 ? `${name}.${"xy"[k]}` : name, unit(m, name), () => read(m, name)[k]);
     }
-    ofKind(board.model, "link").forEach(({name}, i) => add(name, `${name}.angle`, "rad", () => positions(m)[3 * i + 2]));
+    for (const joint of ofKind(board.model, "slot", "prismatic")) {
+      const owner = ofKind(board.model, "link").findIndex(({name}) => name === bodyOf(joint.first)), away = () => [at(joint.first), at(joint.second)];
+      add(joint.name, `${joint.name}.displacement`, "m", () => {
+        const [[a, b], [x, y]] = away(), turn = owner < 0 ? 0 : positions(m)[3 * owner + 2], [c, s] = [Math.cos(turn), Math.sin(turn)], [u, v] = joint.axis;
+        return (x - a) * (c * u - s * v) + (y - b) * (s * u + c * v);
+      });
+      if (owner < 0 && joint.kind === "prismatic") turn.lines.at(-1).body = bodyOf(joint.second);      // a block has no angle to be seen
+    }
+    const turning = ofKind(board.model, "link").map(({name}, i) => [name, i]).filter(([name]) => !turn.lines.some(({body}) => body === name));
+    for (const [name, i] of turning) add(name, `${name}.angle`, "rad", () => positions(m)[3 * i + 2]);
     turn.paths = points.map(() => []);
     for (let i = 0; i <= SAMPLES; i++) {
       for (const line of turn.lines) line.values.push(line.measured());
@@ -512,14 +527,18 @@ function recordTurn() {
     if (m) close(m);
   }
   for (const line of turn.lines.filter((each) => each.name.endsWith(".y"))) addSize(turn, line);
+  for (const {of, body, values} of turn.lines.filter((each) => each.name.endsWith(".displacement")))
+    turn.lines.push({of, body, name: `${of}.speed`, unit: "m/s", values: values.map((_, i) => slopeOf(turn, values, i))});
+}
+
+function slopeOf(turn, values, i) {
+  const [a, b] = [Math.max(i - 1, 0), Math.min(i + 1, SAMPLES)];
+  return (values[b] - values[a]) / (b - a) / turn.to * SAMPLES;
 }
 
 // Speed of a point from its positions, size of a force from its components.
 function addSize(turn, y) {
-  const x = turn.lines.find((each) => each.name === y.name.replace(/y$/, "x")), dt = turn.to / SAMPLES, slope = ({values}, i) => {
-    const [a, b] = [Math.max(i - 1, 0), Math.min(i + 1, SAMPLES)];
-    return (values[b] - values[a]) / (b - a) / dt;
-  };
+  const x = turn.lines.find((each) => each.name === y.name.replace(/y$/, "x")), slope = ({values}, i) => slopeOf(turn, values, i);
   const isPlace = y.unit === "m", values = y.values.map((each, i) => (isPlace ? Math.hypot(slope(x, i), slope(y, i)) : Math.hypot(x.values[i], each)));
   turn.lines.push({of: y.of, name: isPlace ? `${y.of}.speed` : y.name.replace(/\.y$/, ""), unit: isPlace ? "m/s" : y.unit, values});
 }

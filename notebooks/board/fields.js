@@ -1,7 +1,7 @@
 // Numbers of a part that can be typed: label, value, and the change that a new value makes.
 
-import {DRIVES_OF, UNITS_OF, angleOf, elementNamed, lengthOf} from "./model.js";
-import {rename} from "./edit.js";
+import {DRIVES_OF, UNITS_OF, angleOf, drawnPlace, elementNamed, lengthOf} from "./model.js";
+import {moveTo, rename} from "./edit.js";
 
 const needed = (value) => { if (!Number.isFinite(value)) throw new Error("a number is needed"); return value; };
 const shown = (value) => +value.toPrecision(6);
@@ -38,6 +38,8 @@ function jointFields(model, joint) {
   if (joint.axis) found.push(field("angle of the line, °", shown(Math.atan2(joint.axis[1], joint.axis[0]) / RAD), (changed, value) => {
     elementNamed(changed, name).axis = [Math.cos(needed(value) * RAD), Math.sin(value * RAD)];
   }));
+  if (joint.first.body === "ground" && !joint.axis) found.push(...["x", "y"].map((axis, k) => field(`${axis}, m`, shown(drawnPlace(model, joint.first)[k]),
+    (changed, value) => moveTo(changed, joint.first, drawnPlace(changed, joint.first).map((each, i) => (i === k ? needed(value) : each))), {mustClose: true})));
   for (const key of ["first", "second"]) {
     const side = joint[key];
     if (side.body && side.body !== "ground" && !side.local[1]) found.push(field(`along ${side.body}, m`, shown(side.local[0]),

@@ -30,6 +30,11 @@ const LINES = {
     named(Object.fromEntries(["stiffness", "length", "damping"].map((key) => [key, number(values[key])])))})`,
 };
 
+const pathOf = (model) => {
+  const points = model.elements.filter(({kind}) => kind === "point");
+  return points.length ? `, path=[${points.map(({name}) => text(name)).join(", ")}]` : "";
+};
+
 export function pythonOf(model, span = 10, step = 1e-3) {
   return `import zerodrift as zd
 
@@ -37,6 +42,6 @@ m = zd.Mechanism(${text(model.name)}, gravity=${pair(model.gravity)})
 ${model.elements.map((element) => LINES[element.kind](element, model)).join("\n")}
 
 sol = zd.simulate(m, ${number(span)}, step=${number(step)})
-zd.view(sol).save(${text(`${model.name}.html`)})      # a film; in a notebook zd.view(sol) shows it
+zd.view(sol${pathOf(model)}).save(${text(`${model.name}.html`)})      # a film; in a notebook zd.view(sol) shows it
 `;
 }

@@ -6,7 +6,7 @@ const tickOf = x => x === 0 ? "0" : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-3 ? x
 const ticksOf = (low, high, most) => {
   const rough = (high - low) / most, power = 10 ** Math.floor(Math.log10(rough)), step = power * ([1, 2, 5].find(each => each * power >= rough * 0.999) ?? 10);
   const first = Math.ceil(low / step - 1e-9), count = Math.floor(high / step + 1e-9) - first + 1;
-  if (count < 2 && most < 20) return ticksOf(low, high, 2 * most);      // one tick has no scale
+  if (count < 2 && most < 20) return ticksOf(low, high, most + 1);      // one tick has no scale
   return Array.from({length: Math.max(count, 0)}, (_, i) => +((first + i) * step).toPrecision(12));
 };
 const logOf = x => x ? Math.log10(Math.abs(x)) : NaN;
