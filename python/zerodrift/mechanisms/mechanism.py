@@ -152,7 +152,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, ContactVerbs, 
         return MechanismSystem(self._drawing(), layout, {}, compiled)
 
     def with_parameters(self, changes: Mapping[str, float] | None = None, /, **changed: float) -> MechanismSystem:
-        """The system of this mechanism with some numbers changed, assembled anew.
+        """The system of this mechanism with some numbers changed, assembled again.
 
         Parameters
         ----------
@@ -250,6 +250,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, ContactVerbs, 
                              f"{'s' * (len(others) == 1)} on it: remove that first", "wrong-element")
         for each in gone:
             del self._elements[each]
+            self._shapes.pop(each, None)
         for given in (self._held, self._wished):
             for key in [key for key in given if key.partition(".")[0] in gone]:
                 del given[key]
@@ -393,4 +394,4 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, ContactVerbs, 
                 if law.recorded.has_values:
                     law.call("reads numbers or objects, and another law of the mechanism has state")
         return Drawing(self.name, gravity, dict(self.parameters), dict(self._elements), dict(self._held), dict(self._wished),
-                       self._is_balanced)
+                       self._is_balanced, dict(self._shapes))

@@ -189,6 +189,42 @@ class BodyVerbs(Elements):
             return self._add(made(name, attachment.drawn, mass, attachment))
         return self._add(made(name, checks.vector(f"at of {name!r}", at, self.dimension), mass))
 
+    def draw(self, body: Body | str, shape: float | ArrayLike) -> None:
+        """Give a body a shape in pictures, films and live pages, in place of lines between its joints. No motion depends on it.
+
+        Parameters
+        ----------
+        body : Body or name
+            A body or link.
+        shape : float or array_like (n, dimension)
+            In the body's frame, in m. In the plane the radius of a disc about its origin, or at least three corners. In space
+            two opposite corners of a box along its axes, or at least three corners of a plate.
+
+        Raises
+        ------
+        ValueError, TypeError
+            If the body is the ground or a particle, or the shape has too few corners.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("cart")
+        >>> cart = m.body("cart", 2.0, 0.1)
+        >>> m.draw(cart, [(-0.5, 0), (0.5, 0), (0.4, 0.3), (-0.4, 0.3)])
+        """
+        body = self._body("body", body)
+        if body is self.ground or not body.turns:
+            raise WrongValue(f"body must turn to have a shape, and {body.name!r} does not", "wrong-element")
+        what = f"shape of {body.name!r}"
+        if np.ndim(shape) == 0 and self.dimension == 2:
+            self._shapes[body.name] = checks.number(what, shape, above=0)
+            return
+        given = checks.instance(what, shape, Iterable, "a list of corners, or in the plane a radius")
+        corners = np.array([checks.vector(f"each corner of the {what}", each, self.dimension) for each in given])
+        if len(corners) < 5 - self.dimension:
+            raise WrongValue(f"{what} must have at least {5 - self.dimension} corners, not {len(corners)}", "shape")
+        self._shapes[body.name] = corners
+
     def group(self, name: str, bodies: Iterable[Body | str]) -> Group:
         """Measure bodies together.
 

@@ -32,6 +32,9 @@ def lift(drawing: Drawing, m: Any) -> None:
             if kind not in LIFTED:
                 raise WrongValue(f"{element.name!r} cannot be lifted: a {kind} has no counterpart in space", "wrong-dimension")
             LIFTED[kind](m, element)
+    for name, shape in drawing.shapes.items():
+        if np.ndim(shape):
+            m.draw(name, np.pad(shape, ((0, 0), (0, 1))))
     for name in _free(drawing):
         _keep(m, m[name])
     m.start(_start(m, drawing, drawing.held), wish=_start(m, drawing, drawing.wished))

@@ -66,7 +66,11 @@ def mechanism(make: Callable[..., Any], description: Any, where: str) -> Any:
     version = description.get("version", VERSION)       # first, as other versions may have other keys
     if type(version) is not int or version != VERSION:
         raise WrongValue(f"{where} is a mechanism of version {version!r}, and version {VERSION} is known here", "unreadable-file")
-    return _parts(make, where, **_fields(_parts, description, where, skip=("zerodrift", "version")))
+    fields = {key: value for key, value in description.items() if key != "shapes"}
+    m = _parts(make, where, **_fields(_parts, fields, where, skip=("zerodrift", "version")))
+    for body, shape in _at(where, checks.instance, "shapes", description.get("shapes", {}), dict, "a dict of bodies").items():
+        _at(f"{where}, shapes", m.draw, body, shape)
+    return m
 
 
 def _parts(make: Callable[..., Any], where: str, *, zerodrift: str = WHAT, version: int = VERSION, name: Any, dimension: Any,

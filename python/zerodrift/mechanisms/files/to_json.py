@@ -34,7 +34,8 @@ def described(drawing: Drawing) -> dict[str, Any]:
             "gravity": numbers(drawing.gravity), "parameters": dict(drawing.parameters), "elements": elements,
             "start": {name: _plain(value) for name, value in drawing.held.items()},
             "wish": {name: _plain(value) for name, value in drawing.wished.items()},
-            **({"equilibrium": True} if drawing.is_balanced else {})}
+            **({"equilibrium": True} if drawing.is_balanced else {}),
+            **({"shapes": {name: np.asarray(each).tolist() for name, each in drawing.shapes.items()}} if drawing.shapes else {})}
 
 
 def text(description: dict[str, Any]) -> str:

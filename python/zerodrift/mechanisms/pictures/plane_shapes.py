@@ -75,6 +75,9 @@ class Sketch:
                 if body.name not in self.has_shape:
                     yield Shape("particle", posed.pose(body.name).origin[None], body.name)
                 continue
+            if body.name in self.parts.drawing.shapes:
+                yield _given(body, posed, self.parts.drawing.shapes[body.name])
+                continue
             places = posed.outline(body.name)
             if body.name in self.slotted:
                 tracks = [posed.track(joint, ranges) for joint in self.sliding if joint.bodies[0] is body]
@@ -122,6 +125,14 @@ class Sketch:
                 yield Shape("weld", np.array([second, posed.spoke(joint)]), joint.name)
             if pinned:
                 yield Shape("pin", second[None], joint.name)
+
+
+def _given(body: Body, posed: Posed, shape: Any) -> Shape:
+    """A disc with its spoke, or corners."""
+    pose = posed.pose(body.name)
+    if np.ndim(shape):
+        return Shape("cam", np.array([pose.point(each) for each in shape]), body.name)
+    return Shape("wheel", np.array([pose.origin, pose.direction(np.array([1.0, 0.0]))]), body.name, float(shape))
 
 
 def _kind(joint: Joint) -> str:

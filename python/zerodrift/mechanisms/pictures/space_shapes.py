@@ -79,6 +79,12 @@ class SpaceSketch:
         for particle in self.carried.get(body.name, ()):
             if particle.attachment:
                 yield Shape("dot", _moved(self.local(particle.attachment)[None], at), particle.name)
+        given = self.drawing.shapes.get(body.name)
+        if given is not None:
+            corners = given[0] + (CORNERS + 0.5) * (given[1] - given[0]) if len(given) == 2 else given
+            places = np.array([self.local(Point(body, each)) for each in corners])
+            yield Shape("box" if len(given) == 2 else "plate", _moved(places, at), body.name)
+            return
         places = self.held[body.name]
         if body.name in self.rolling and len(places) < 2:
             return
