@@ -61,7 +61,7 @@ class display_units:        # noqa: N801 - called as a function
     Raises
     ------
     ValueError
-        If there is no such quantity or unit; the message lists those that there are.
+        If there is no such quantity or unit; the message lists the known ones.
 
     Examples
     --------
@@ -104,7 +104,7 @@ def chosen() -> Mapping[str, str]:
 
 
 def shown(unit: str) -> Shown:
-    """Unit and factor for values in an SI unit; one of none of the quantities is its own."""
+    """Unit and factor for values in an SI unit; a unit of no quantity is kept."""
     quantity = OF_UNIT.get(unit, "")
     wanted = chosen().get(quantity, unit)
     return Shown(wanted, 1 / UNITS[quantity][wanted] if wanted != unit else 1.0)

@@ -199,6 +199,7 @@ def test_ctrl_c_leaves_what_was_done(monkeypatch):
     done = caught.value.solution
     assert 1 <= (~done.failed).sum() < 400
     assert "was not started" in done.messages[-1]
+    assert f"none failed, {len(done) - int((~done.failed).sum())} not started" in repr(done)
 
 
 def test_ctrl_c_in_the_first_run():

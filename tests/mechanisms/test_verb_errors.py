@@ -24,6 +24,9 @@ def m():
     (lambda m: m.revolute("other", m.ground), "revolute 'other' needs second; it takes name, first, second"),
     (lambda m: m.motor("drive", "pin", 3.0), "motor must be given name and joint by position and other arguments by name, not 3"),
     (lambda m: m.body("b", name="c", mass=1.0), "body: multiple values for argument 'name'"),
+    (lambda m: m.link("l", (0, 0), (1, 0), 1.0, com=(0, 0)), "Its centre of mass is its middle; that of m.body(com=) is"),
+    (lambda m: m.motor("drive", m["link"].angle, speed=1.0), "m.constraint(name, lambda a, t: a - 2.0 * t, of={'a': 'link."),
+    (lambda m: zd.fmu(m, "x.fmu", step=0.01, parameters=["link.mass"]), "'parameters' must be an argument of the export or"),
     (lambda m: m.system(compile=True), "system has no argument 'compile'; it takes coordinates, compiled")])
 def test_errors_of_arguments(m, call, sentence):
     before = list(m._elements)

@@ -27,5 +27,5 @@ def test_it_returns_faster_than_it_cuts():
 
 @pytest.mark.parametrize("wrong", [{"rod": 0.014}, {"crank": 0.025}, {"crank": 0.04}])
 def test_a_rod_that_does_not_reach(wrong):
-    with refused("geometry", r"rod must be longer than 0\.\d+ m, by which the lever's end goes aside"):
+    with refused("geometry", r"rod must be longer than 0\.\d+ m, by which the lever's end moves off"):
         zd.models.quick_return(**wrong)

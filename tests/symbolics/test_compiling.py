@@ -199,7 +199,7 @@ def test_flags_in_the_environment_are_not_looked_at(cache_folder, monkeypatch):
 
 def test_without_space_to_compile(cache_folder, tmp_path, monkeypatch):
     monkeypatch.setattr(shared_library.tempfile, "tempdir", str(tmp_path / "missing"))
-    assert "no room to compile" in refusal()
+    assert "no space to compile" in refusal()
     assert "TMPDIR" in refusal()
 
 

@@ -53,12 +53,12 @@ def with_user_data(library):
 
 WRONG = [
     (another_version, ValueError, r"zd_interface_version of .*newer\.so is 12, and this core has version 11 of the "),
-    (no_version, ValueError, r"versionless\.so does not say its version of the interface: it needs the line"),
+    (no_version, ValueError, r"versionless\.so must declare its version of the interface by the line"),
     (no_library, ValueError, r"text\.so must be a shared library that can be loaded here: "),
     (lambda lib: pendulum(lib.parent / "none.so"), FileNotFoundError, r"the shared library must exist: .*none\.so"),
     (lambda lib: pendulum(lib, "pendulums"), ValueError, r"pendulum\.so has no symbol 'pendulums'"),
     (lambda lib: pendulum(lib, None), TypeError, "symbol is needed, the name of what is meant in .*, not None"),
-    (lambda lib: pendulum(lib, version=1), TypeError, "version is for functions in memory: a library says its own"),
+    (lambda lib: pendulum(lib, version=1), TypeError, "version is for functions in memory: a library declares zd_"),
     (untyped, TypeError, "set argtypes and restype of .*, as of a int"),
     (other_ctypes, TypeError, r"the ctypes function is double \(double\), and must be int \(const void \*data, int want"),
     (other_cffi, TypeError, r"the cffi function is double \(double\), and must be int"),

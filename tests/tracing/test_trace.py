@@ -340,6 +340,26 @@ def test_forces_of_a_mechanism_at_rest(coordinates):
     assert bearing[:, 1] == pytest.approx(np.full(2001, 10.0 * 9.81), rel=1e-9)
 
 
+def jack():
+    m = zd.Mechanism("jack", gravity=(0, -9.81))
+    m.revolute("A", m.ground, m.link("arm", (0, 0), (1, 0), mass=2.0).start)
+    m.actuator("cylinder", m.ground.point((0.0, -0.5)), m["arm"].point((0.6, 0)), length=0.7)
+    return m
+
+
+def test_forces_of_a_cylinder_that_is_traced_or_holds():
+    """Its force is the derivative of the weight's energy by its length, by the cosine rule."""
+    lengths = np.linspace(0.6, 1.0, 9)
+    traced = zd.trace(jack(), "cylinder.length", lengths, forces=True)
+    assert traced["effort"] == pytest.approx(2.0 * 9.81 * 0.5 * 2 * lengths / (2 * 0.5 * 0.6), rel=1e-9)
+    heights = traced["arm.center.position"][:, 1]
+    by_height = zd.trace(jack(), "arm.center.position.y", heights, forces=["cylinder.length"])
+    assert by_height["effort"] == pytest.approx(traced["effort"], rel=1e-8)
+    assert by_height["A.force"] == pytest.approx(traced["A.force"], rel=1e-8)
+    plain = zd.trace(jack(), "arm.center.position.y", heights, forces=True)
+    assert plain["effort"] == pytest.approx(np.full(9, 2.0 * 9.81), rel=1e-8)
+
+
 def test_a_trace_without_forces_has_none():
     with refused("not-available", "main.force"):
         zd.trace(zd.models.slider_crank(), "crank.angle", [0.1, 0.2])["main.force"]

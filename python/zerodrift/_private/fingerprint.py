@@ -1,6 +1,6 @@
 """Fingerprints: hashes that tell whether something is still what it was.
 
-The build of the core runs this file by itself, before there is a package, so it imports the standard library only.
+The build of the core runs this file alone, before the package exists, so it imports the standard library only.
 """
 
 from __future__ import annotations

@@ -18,6 +18,8 @@ WORDS = {"speed": ("rpm", "omega", "w", "velocity", "angular_velocity"), "angle"
          "value": ("force", "torque", "F", "magnitude"), "along": ("direction", "dir"), "axis": ("direction", "along"),
          "com": ("center", "centre", "cog"), "ratio": ("i", "teeth", "n")}
 
+HINTS = {("link", "com"): ". Its centre of mass is its middle; that of m.body(com=) is anywhere"}
+
 
 def verb(method: Callable[..., Any]) -> Callable[..., Any]:
     """Return the method with errors that name it, the unknown argument and those that it takes."""
@@ -43,7 +45,8 @@ def _explained(name: str, signature: inspect.Signature, arguments: tuple[Any, ..
     if unknown := [each for each in named if each not in known]:
         meant = next((each for each in known if unknown[0] in WORDS.get(each, ())), None)
         unit = f"{meant}= is in {UNITS[meant]}; " if meant in UNITS else f"use {meant}=; " if meant else ""
-        return f"{name} has no argument {unknown[0]!r}; {unit}{takes}"
+        hint = HINTS.get((name, unknown[0]), "")
+        return f"{name} has no argument {unknown[0]!r}; {unit}{takes}{hint}"
     places = [each.name for each in signature.parameters.values() if each.kind is not each.KEYWORD_ONLY][1:]
     if len(arguments) > len(places):
         return (f"{name} must be given {' and '.join(places) or 'nothing'} by position and other arguments by name, not "

@@ -45,7 +45,7 @@ class Kinematics:
         watching = self.system._watching
         place = watching.find(name)
         if place is not None and watching.core.needs_reactions(place.number):
-            raise WrongName(f"{name!r} needs reactions, which kinematics has not: zd.inverse_dynamics(system, kin) has them",
+            raise WrongName(f"{name!r} needs reactions, which kinematics does not know: zd.inverse_dynamics(system, kin) does",
                             "not-available")
         return read(self.system, name, self.t, (self.p, self.v, self.vdot, np.zeros((len(self.t), self.system.m))))
 

@@ -203,16 +203,23 @@ class Ensemble:
         count = " x ".join(map(str, self.shape))
         varied = f" over {', '.join(self.parameters)}" if self.parameters else ""
         rows = f"{len(self.t)} samples each" if self.t is not None else "times of their own"
-        failed = f"{int(self.failed.sum())} failed" if self.failed.any() else "none failed"
+        idle = ~self._done()
+        broken = self.failed & ~idle
+        failed = f"{int(broken.sum())} failed" if broken.any() else "none failed"
+        failed += f", {int(idle.sum())} not started" if idle.any() else ""
         failed += f", {int(self.doubtful.sum())} doubtful" if self.doubtful.any() else ""
-        first = f", the first because {self.messages[int(self.failed.argmax())]}" if self.failed.any() else ""
+        first = f", the first because {self.messages[int(broken.argmax())]}" if broken.any() else ""
         return (f"<ensemble of {count} {'run' if count == '1' else 'runs'}{varied}: {rows}, {failed}{first}\n"
                 f" {f'in {self.seconds:.3g} s ' if self.seconds else ''}{self._where}; {self._paths()}\n"
                 f" outputs {', '.join(self._names) or 'none'}>")
 
+    def _done(self) -> np.ndarray:
+        """Mask (n,) of runs that were started."""
+        return np.array([message != NOT_STARTED for message in self.messages])
+
     def _paths(self) -> str:
         """Number of runs by each entry of `PATHS`, in words."""
-        done = np.array([message != NOT_STARTED for message in self.messages])
+        done = self._done()
         return ", ".join(f"{count} {path}" for number, path in enumerate(PATHS)
                          if (count := int((self._part.paths[done] == number).sum()))) or "none was made"
 

@@ -113,7 +113,8 @@ def choose(system: Any, p0: Any, v0: Any, t0: float, step: float | None, outputs
     p, v = system._state_or_start(p0, v0, t=t0)
     unknown = chosen.keys() - set(settings.DEFAULTS) | chosen.keys() & {"t_eval", "save_every", "closed_form", "vector"}
     if unknown:
-        raise WrongType(f"block() has no argument {min(unknown)!r}", "wrong-name")
+        hint = ": parameters of an FMU or of C source are fixed, and inputs= change" if "parameters" in unknown else ""
+        raise WrongType(f"{min(unknown)!r} must be an argument of the export or an option of simulate{hint}", "wrong-name")
     core_settings = settings.plan(
         system, (t0, t0 + 1), settings.Arguments(step=step, closed_form=False, vector="baseline", **chosen)).core_settings
     names = None if outputs is None else _measures(_outputs.names(outputs, system), system)

@@ -41,7 +41,7 @@ def compiled(files: CoreFiles, command: Sequence[str], options: Sequence[str], *
             for file, text in more.items():
                 (here / file).write_text(text, encoding="utf-8")
             objects = _objects(_digests(files, more), here, [*command, *options], say)
-            say("joining objects")
+            say("joining objects" + (", with the C library of zig, which it compiles once" if "zig" in join[0] else ""))
             run([*join, product, *objects], here)
             found = (here / product).read_bytes()
         cache.put(key, found)

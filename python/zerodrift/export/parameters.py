@@ -111,7 +111,7 @@ def _fitted(words: Words, group: Sequence[str], limits: Mapping[str, tuple[float
               *(tuple(random.uniform(*limits[name]) for name in group) for _ in range(CHECKS))]
     true = np.array([words(dict(zip(group, point, strict=True)))[places] for point in points])
     if (np.abs(_terms(points, powers, scales) @ coefficients - true) > 10 * EXACT * size + ROUNDING_OF_ZERO).any():
-        raise WrongValue(f"numbers of the tables must be polynomials of {' and '.join(group)}, and are not", "not-portable")
+        raise WrongValue(f"the tables must be polynomials of {' and '.join(group)}, and are not", "not-portable")
     factors = np.array([np.prod([scale ** -exponent for scale, exponent in zip(scales, power, strict=True)])
                         for power in powers])
     return powers, coefficients * factors[:, None]

@@ -1,4 +1,4 @@
-"""The four-bar of Blajer's paper, which is let go with its crank upright."""
+"""The four-bar of Blajer's paper, released with its crank upright."""
 
 from __future__ import annotations
 

@@ -62,7 +62,7 @@ def quick_return(*, ground: float = 0.025, crank: float = 0.010, lever: float = 
     lowest = b * np.sqrt(1 - (a / g)**2) if a < g else -b
     reach = max(abs(b - height), abs(lowest - height))
     if a == g or not reach < c:
-        raise WrongValue(f"rod must be longer than {reach:g} m, by which the lever's end goes aside from the ram's line at a "
+        raise WrongValue(f"rod must be longer than {reach:g} m, by which the lever's end moves off the ram's line at a "
                          f"height of {height:g} m, and crank other than ground, {g:g} m; rod is {c:g} m, and crank {a:g} m",
                          "geometry")
     m = Mechanism("quick_return", gravity=(0.0, -checks.number("gravity", gravity)))

@@ -106,7 +106,7 @@ def four_bar_times() -> np.ndarray:
 
 
 def four_bar_states() -> np.ndarray:
-    """The states (k, 2), integrated anew."""
+    """The states (k, 2), integrated again."""
     given = FOUR_BAR.system.parameters
     return equation().integrate(four_bar_times(), [given["crank_angle"], given["crank_rate"]])
 
@@ -161,7 +161,7 @@ def oscillator_energies(t: float) -> tuple[float, float]:
 
 
 def write(path: Path = FILE) -> None:
-    """Integrate anew and write the file."""
+    """Integrate again and write the file."""
     rows = (f"{t:.3f},{a:.17g},{rate:.17g}\n" for t, (a, rate) in zip(four_bar_times(), four_bar_states(), strict=True))
     head = "# Example 1 by SciPy's DOP853 on the equation in alpha_1; written by python -m zerodrift.paper.reference\n"
     content = (head + "# t [s], alpha_1 [rad], its rate [rad/s]\n" + "".join(rows)).encode("ascii")

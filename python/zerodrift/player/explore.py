@@ -33,7 +33,7 @@ class Exploration:
     film : View or None
         Its film.
     message : str
-        The reason for which there is no motion; empty if there is one.
+        The reason why there is no motion; empty if there is one.
     group : str
         Name by which its films find each other: a new one goes on at the time of the one before, as seen from the same side.
     """

@@ -1,4 +1,4 @@
-"""Pictures of mechanisms of the plane from the shapes of their parts; `drawing` asks for them.
+"""Pictures of planar mechanisms from the shapes of their parts, for `drawing`.
 
 All shapes of a kind are one collection of matplotlib, whose label is the kind, so that pictures of a thousand links are quick,
 and films move what there is instead of drawing anew.

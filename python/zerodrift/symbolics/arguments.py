@@ -40,7 +40,7 @@ class Definition:
         if (kinetic is None) == (mass is None):
             raise WrongType("either kinetic or mass is needed", "conflicting-arguments")
         if mass is None and bias is not None:
-            raise WrongType("bias goes with mass; from kinetic it is derived", "conflicting-arguments")
+            raise WrongType("bias must be left out with kinetic, from which it is derived", "conflicting-arguments")
         self.speed_definitions = dict(speeds) if isinstance(speeds, Mapping) else {}
         self.speeds = self._speeds(speeds, kinematics)
         holonomic, names = _named("constraints", constraints, "constraint")
@@ -78,7 +78,7 @@ class Definition:
                                  "then kinematics is needed", "missing-argument")
             return found
         if kinematics is not None:
-            raise WrongType("kinematics goes with speeds: name these", "conflicting-arguments")
+            raise WrongType("kinematics must be given with speeds=, their names", "conflicting-arguments")
         plain = [q for q, rate in zip(self.coordinates, self.rates, strict=True) if rate is None]
         if plain:
             raise WrongType(f"speeds are needed: coordinate {plain[0]} is a symbol, which has no derivative by time "
@@ -178,7 +178,7 @@ class Definition:
         used = {u for u in self.speeds if u not in speed_definitions and sympy.sympify(self.expressions["kinetic"]).has(u)}
         if used:
             raise WrongValue(f"kinetic has speed {min(used, key=str)}, and there are kinematics: write it with derivatives of "
-                             "coordinates, or say in the dict speeds what this speed is in terms of these", "expression")
+                             "coordinates, or define this speed in the dict speeds", "expression")
         return known | speed_definitions
 
     @staticmethod
@@ -191,7 +191,7 @@ class Definition:
     def _check_stages(self, given: Given) -> None:
         for i, row in enumerate(given.holonomic):
             if row.stage >= MOVING:
-                raise WrongValue(f"constraint {self.constraint_names[i]!r} depends on velocities: such belong to nonholonomic",
+                raise WrongValue(f"constraint {self.constraint_names[i]!r} must not depend on velocities: take nonholonomic",
                                  "expression")
         if given.mass is not None:
             if {len(given.mass), *map(len, given.mass)} != {given.nv}:

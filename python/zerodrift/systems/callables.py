@@ -120,7 +120,7 @@ class System(BaseSystem):
         self.p0 = None if p0 is None else checks.frozen(checks.vector("p0", p0, len(names)))
         functions = {key: Function(key, self._given[key], self.parameters) for key in SHAPES if self._given[key] is not None}
         if "jacobian" in functions and "constraints" not in functions:
-            raise WrongValue("jacobian is given without constraints", "missing-argument")
+            raise WrongValue("jacobian must be given with constraints", "missing-argument")
         places = quaternion_places(quaternions, names, kinematics is not None)
         sizes = _sizes(functions, _anywhere(len(names), places) if self.p0 is None else self.p0)
         packing = checked(structure, sizes, kinematics is not None)

@@ -179,7 +179,7 @@ class Watching:
         """
         found = self.find(name)
         if found is None:
-            raise WrongName(f"nothing measured is called {name!r}; {checks.closest(name, self.known)}", "wrong-name")
+            raise WrongName(f"no measure is called {name!r}; {checks.closest(name, self.known)}", "wrong-name")
         same: Any = np.ones(self._measures[found.number].size, dtype=bool)
         if self.core.measure_depends(found.number) == "accelerations" and self.core.m:
             changes = self._evaluate(found.number, solution, "redundant")

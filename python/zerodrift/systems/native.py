@@ -1,6 +1,6 @@
 """Systems with compiled equations of the user: in C, by Numba, or in any language with C calling conventions.
 
-`BIT` and `SLOT` name the terms in such a function, and `INTERFACE_VERSION` is what it is to be compiled with.
+`BIT` and `SLOT` name the terms in such a function, and `INTERFACE_VERSION` is the version to compile it with.
 """
 
 from __future__ import annotations

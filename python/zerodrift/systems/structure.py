@@ -136,7 +136,7 @@ def checked(structure: Any, sizes: tuple[int, int, int, int], has_A: bool) -> ga
     if mh not in ends:
         g = int(np.searchsorted(ends, mh)) - 1
         raise WrongValue(f"structure: group {g} has rows {ends[g]} to {ends[g + 1] - 1}, of which the first {mh} are holonomic; "
-                         "it has to be of one kind", "declared-structure")
+                         "it must be of one kind", "declared-structure")
     return structure._packing
 
 

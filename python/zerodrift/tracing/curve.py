@@ -125,7 +125,7 @@ class Curve:
             if found is None:
                 step /= 2
                 if step < SHORTEST_STEP:
-                    raise CorrectionFailed(f"the positions cannot be followed beyond {knot.value:.10g}: the constraints do not "
+                    raise CorrectionFailed(f"the positions cannot be traced beyond {knot.value:.10g}: the constraints do not "
                                            "determine them there")
                 continue
             turned = _angle(knot.tangent, found.tangent)
@@ -167,7 +167,7 @@ class Curve:
         """Point at a bifurcation, where Newton's matrix is singular: interpolated from points on both sides."""
         first, last = (self._at(segment, arc + aside) for aside in (-INTERPOLATION_DISTANCE, INTERPOLATION_DISTANCE))
         if first is None or last is None:
-            raise CorrectionFailed(f"the positions cannot be followed beyond {segment.first.value:.10g}: the constraints do not "
+            raise CorrectionFailed(f"the positions cannot be traced beyond {segment.first.value:.10g}: the constraints do not "
                                    "determine them there")
         near = Segment(first, last, _arc(first, last))
         value, tangent = float(np.polyval(_cubic(near), 0.5)), last.x - first.x

@@ -20,7 +20,7 @@ from .trace_result import DeadPoint, Reach, Trace
 
 
 def trace(system: SystemLike, measure: MeasureLike, values: ArrayLike | None = None, *, hold: Values | Measures = (),
-          through: bool = False, count: int = 361, forces: bool = False) -> Trace:
+          through: bool = False, count: int = 361, forces: bool | Measures = False) -> Trace:
     """The positions of a mechanism at given values of a measure, such as the angles of its crank; without time.
 
     All positions lie on the branch on which the mechanism starts, as drawn or as `start` says: it is followed in small steps.
@@ -42,9 +42,10 @@ def trace(system: SystemLike, measure: MeasureLike, values: ArrayLike | None = N
         the values after it are on the branch beyond it. False: all values lie between the same two dead points.
     count : int
         Number of positions where values are left out, besides dead points.
-    forces : bool
+    forces : bool or measures
         True: the trace has the forces of a mechanism at rest in each position, too: ``trace["pin.force"]``, and as
-        ``trace["effort"]`` the one along `measure` that holds it there, in N or N m.
+        ``trace["effort"]`` the one along `measure` that holds it there, in N or N m. Measures, such as ``"cylinder.length"``:
+        efforts along these hold it, of which ``trace["effort"]`` is the first.
 
     Returns
     -------
@@ -81,9 +82,9 @@ def trace(system: SystemLike, measure: MeasureLike, values: ArrayLike | None = N
     motion = Motion(system, name_of(measure, "measure"), hold)
     checks.instance("through", through, (bool, np.bool_), "True or False")
     count = checks.count("count", count, least=2)
-    checks.instance("forces", forces, (bool, np.bool_), "True or False")
+    along = [motion.measure, *hold] if isinstance(forces, bool | np.bool_) else [forces] if isinstance(forces, str) else forces
     traced = _whole(motion, count) if values is None else _at(motion, _values(values), through)
-    return traced.with_forces([motion.measure, *hold]) if forces else traced
+    return traced.with_forces([name_of(each, "forces") for each in along]) if forces else traced
 
 
 def _at(motion: Motion, values: np.ndarray, through: bool) -> Trace:

@@ -148,7 +148,7 @@ class Trace:
         """A force by its name; None: it is a measure of positions, or nothing."""
         assert self.efforts is not None
         if name == "effort":
-            return self.efforts.efforts[self.measure]
+            return next(iter(self.efforts.efforts.values()))
         place = self.system._watching.find(name)
         depends = place and self.system._measuring.measure_depends(place.number)
         return self.efforts[name] if depends == "accelerations" else None

@@ -100,7 +100,7 @@ def _first(motion: Motion, values: np.ndarray) -> Knot:
     x, _ = motion.curve.positions([first], values[:1])
     knot = motion.curve.knot(x[0], first.last.x - first.first.x)
     if knot is None:
-        raise CorrectionFailed(f"the positions cannot be followed from {values[0]:.10g}: the constraints do not determine them "
+        raise CorrectionFailed(f"the positions cannot be traced from {values[0]:.10g}: the constraints do not determine them "
                                "there")
     differences = np.diff(values)[np.diff(values) != 0]
     return knot if not differences.size or differences[0] > 0 else knot.reversed()

@@ -45,6 +45,7 @@ class Elements:
         self.ground._register = self._register_point
         self.parameters: dict[str, float] = {}
         self._elements: dict[str, Any] = {"ground": self.ground}
+        self._shapes: dict[str, Any] = {}
         for name, value in checks.parameters(parameters).items():
             self.parameter(name, value)
 
@@ -201,6 +202,9 @@ class Elements:
     def _joint(self, argument: str, value: Any, coordinate: tuple[str, ...]) -> Joint:
         """Joint of this mechanism, checked to have one of these coordinates, "angle" or "displacement"."""
         value = self._named(argument, value)
+        if isinstance(value, Measure):
+            raise WrongType(f"{argument} must be a joint, not {value!r}: an angle of a body is prescribed by a constraint, as "
+                            f"m.constraint(name, lambda a, t: a - 2.0 * t, of={{'a': {value.name!r}}})")
         checks.instance(argument, value, Joint, "a joint")
         if not self._is_own(value):
             raise WrongValue(f"{argument} must be a joint of {self.name!r}, and {value!r} belongs to another mechanism",

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from . import columns
 from .bodies import Body, Particle, Point
 from .contacts import switching
+from .forces import Actuator
 from .numbers import Numbers
 from .own_measures import OwnMeasure
 
@@ -24,6 +26,7 @@ class Drawing(NamedTuple):
     held: dict[str, Any]
     wished: dict[str, Any]
     is_balanced: bool = False       # the start is an equilibrium near the held positions
+    shapes: Mapping[str, Any] = MappingProxyType({})        # radius or corners (n, dimension) of bodies that have one, m
 
     @property
     def dimension(self) -> int:
@@ -64,8 +67,9 @@ class Drawing(NamedTuple):
         return [law for each in self.elements.values() if not isinstance(each, OwnMeasure) for law in each.laws.values()]
 
     def without_drives(self) -> Drawing:
-        """The same without motors and actuators that prescribe a motion."""
-        others = {name: each for name, each in self.elements.items() if not getattr(each, "prescribes", False)}
+        """The same without motors that prescribe a motion, and with no force of actuators that do, whose measures remain."""
+        others = {name: each.idle if isinstance(each, Actuator) and each.prescribes else each
+                  for name, each in self.elements.items() if isinstance(each, Actuator) or not getattr(each, "prescribes", False)}
         return self._replace(elements=others)
 
     def parts(self) -> list[Body]:

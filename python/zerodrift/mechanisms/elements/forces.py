@@ -92,6 +92,11 @@ class Actuator(Fixed):
         """True if it prescribes the length, by a driving constraint; False if it prescribes the force."""
         return self.drives == "length"
 
+    @property
+    def idle(self) -> Actuator:
+        """The same without force."""
+        return Actuator(self.name, self.first, self.second, "force", Law("force", 0.0))
+
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
         return self.constants

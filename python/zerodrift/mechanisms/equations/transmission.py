@@ -50,7 +50,7 @@ def joints_by_body(elements: Mapping[str, Any]) -> dict[str, list[Joint]]:
 def lines(joint: Joint, joints: Mapping[str, list[Joint]], numbers: Numbers = AS_GIVEN) -> tuple[Line, Line]:
     """Lines of a hinge's two links, ordered so that the angle from the first to the second is positive as drawn."""
     if not is_hinge(joint.row):
-        raise NoTransmissionAngle(f"{joint.name!r} is no hinge, and a transmission angle is that at a hinge of two links")
+        raise NoTransmissionAngle(f"{joint.name!r} is not a hinge; a transmission angle is measured at a hinge between two links")
     if any(body.name == "ground" for body in joint.bodies):
         raise NoTransmissionAngle(f"{joint.name!r} is fixed to the ground, and a transmission angle is that at a hinge of two "
                                   "moving links")

@@ -30,7 +30,7 @@ def whipple_bicycle(*, speed: float = 4.6, roll_rate: float = 0.5, steer_rate: f
 
     Notes
     -----
-    Between 4.29 and 6.02 m/s it comes back to upright by itself.
+    Between 4.29 and 6.02 m/s it returns to upright without control.
 
     References
     ----------

@@ -198,7 +198,7 @@ class Run(Stepping):
         return saved(self._ready, self._core, [each.state() for each in self._keeping()], self.system)
 
     def restore(self, state: bytes) -> None:
-        """Go back, or on, to a saved state; a record begins anew there, in memory or in its file.
+        """Go back, or on, to a saved state; a new record begins there, in memory or in its file.
 
         Parameters
         ----------
@@ -221,7 +221,7 @@ class Run(Stepping):
             each.restore(kept)
 
     def copy(self) -> Run:
-        """Another run at the present state, which goes on by itself; controllers are shared.
+        """Another run at the present state, which continues independently; controllers are shared.
 
         Returns
         -------
@@ -235,7 +235,7 @@ class Run(Stepping):
         return twin
 
     def reset(self, p0: ArrayLike | None = None, v0: ArrayLike | None = None) -> None:
-        """Go back to the start at t0, with the first inputs; a record begins anew, in memory or in its file.
+        """Go back to the start at t0, with the first inputs; a new record begins, in memory or in its file.
 
         Parameters
         ----------

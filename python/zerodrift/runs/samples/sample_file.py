@@ -183,4 +183,4 @@ def _remove(path: Path) -> None:
         path.unlink(missing_ok=True)
     except PermissionError as error:
         raise FileInUse(f"save_to cannot replace {str(path)!r} while its samples are in use: a solution that "
-                              "reads them, here or in another process, has to go first; or take another name") from error
+                              "reads them, here or in another process, must be deleted first; or take another name") from error

@@ -144,7 +144,7 @@ def _build(source: str, line: list[str], environment: dict[str, str] | None = No
                 raise _complaint(line, status, said, source)
             return product.read_bytes()
     except OSError as error:
-        raise CompilationFailed(f"there is no room to compile a symbolic system: {error}. Let TMPDIR name a folder with space "
+        raise CompilationFailed(f"there is no space to compile a symbolic system: {error}. Let TMPDIR name a folder with space "
                                 "and write permission") from None
 
 

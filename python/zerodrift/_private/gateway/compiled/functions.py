@@ -56,7 +56,7 @@ def find(function: Any, symbol: str | None, version: int | None) -> Function:
     """The compiled function that an argument refers to, checked."""
     if isinstance(function, str | Path):
         if version is not None:
-            raise WrongType(f"version is for functions in memory: a library says its own, zd_interface_version, not {version!r}",
+            raise WrongType(f"version is for functions in memory: a library declares zd_interface_version, not {version!r}",
                             "compiled-function")
         return in_library(function, symbol)
     if symbol is not None:
@@ -182,7 +182,7 @@ def in_library(path: str | Path, symbol: Any) -> Function:
     try:
         version = ctypes.c_int.in_dll(library, "zd_interface_version").value
     except ValueError:
-        raise WrongValue(f"{path} does not say its version of the interface: it needs the line "
+        raise WrongValue(f"{path} must declare its version of the interface by the line "
                          "`const int zd_interface_version = ZD_INTERFACE_VERSION;`", "compiled-function") from None
     check_version(version, f"zd_interface_version of {path}")
     try:

@@ -125,7 +125,7 @@ def kind_at(address: int) -> Kind:
     if not c.card.name or not system.evaluate:
         raise WrongValue(f"its {'evaluate' if c.card.name else 'name'} is missing", "compiled-function")
     if system.data:
-        raise WrongValue("its system.data is to be left out: the constants take its place", "compiled-function")
+        raise WrongValue("its system.data must be left out: the constants replace it", "compiled-function")
     message = ffi.new("char[]", MESSAGE_SIZE)
     if lib.zd_check_system(ffi.addressof(c, "system"), message, MESSAGE_SIZE):
         raise WrongValue(text(message), "compiled-function")

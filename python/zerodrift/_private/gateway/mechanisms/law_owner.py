@@ -58,7 +58,7 @@ class LawOwner:
 
     @property
     def calls(self) -> dict[str, float]:
-        """Time spent in each user function that was called, in s, by what it is."""
+        """Time spent in each user function that was called, in s, by its description."""
         rows = getattr(self._law, "rows", ())
         return {rows[law].law.what: seconds for law, seconds in self.seconds.items() if law < len(rows)}
 
