@@ -111,3 +111,27 @@ def test_a_walker_repeats_the_step_of_the_literature(arguments, digits):
         found = [sol[f"{stance}.angle"][after] - normal, *(sol[f"{leg}.angular_velocity"][after] for leg in (stance, swing))]
         assert found == pytest.approx(expected, abs=2 * digits)
     assert sol.phases[-1].state["fall"] == "open"
+
+
+@pytest.mark.parametrize("slots", [4, 6])
+def test_a_geneva_drive_has_the_angle_and_the_force_of_the_closed_form(slots):
+    """The wheel's angle is atan(a sin, C - a cos) of the crank's while the pin is in a slot; what turns it is the pin's force."""
+    a, half = 0.05, math.pi / slots
+    distance, speed = a / math.sin(half), 2 * math.pi
+    radius, inertia = distance * math.cos(half), 0.25 * (distance * math.cos(half))**2
+    sol = zd.simulate(zd.models.geneva(slots=slots), 2.0, rtol=1e-11, atol=1e-13)
+    crank = sol["shaft.angle"] + math.pi
+    turn = np.round(crank / (2 * math.pi))
+    inside = abs(crank - 2 * math.pi * turn) < math.pi / 2 - half - 1e-3
+    angle = -2 * half * (turn - 0.5) - np.arctan2(a * np.sin(crank), distance - a * np.cos(crank))
+    assert sol["axle.angle"][inside] == pytest.approx(angle[inside], abs=1e-9)
+    assert abs(sol["wheel.angular_velocity"][abs(crank - math.pi) < math.pi / 2]).max() < 1e-12
+    assert sol["axle.angle"][-1] == pytest.approx(-4 * half, abs=1e-9)
+    squared = distance**2 + a**2 - 2 * distance * a * np.cos(crank)
+    turning = a * distance * speed**2 * np.sin(crank) * (distance**2 - a**2) / squared**2       # second derivative of atan
+    force = inertia * turning / np.sqrt(squared)
+    for i in range(2):
+        at = inside & (turn == i + 1)
+        assert np.linalg.norm(sol[f"slot {i + 1}.force"][at], axis=1) == pytest.approx(abs(force[at]), rel=1e-6, abs=1e-7)
+    assert np.allclose(sol.impacts["energy_lost"], 0, atol=1e-20)
+    assert radius == pytest.approx(math.sqrt(distance**2 - a**2))

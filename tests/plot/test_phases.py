@@ -88,3 +88,13 @@ def test_a_rod_is_drawn_while_it_is_joined():
     assert np.hypot(*(end - start)) == pytest.approx(2.8)
     ((start, end),) = (shape.points for shape in moments_of(sol, sol.p[-1:], sol.t[-1:])[0] if shape.kind == "rod")
     assert (start == end).all()
+
+
+def test_grooves_that_a_pin_enters_and_leaves_are_as_long_as_it_goes_in_them():
+    sol = zd.simulate(zd.models.geneva(), 4.0, step=0.005)
+    shapes = moments_of(sol, sol.p[:1], sol.t[:1])[0]
+    center = sol["wheel.position"][0]
+    for i in range(4):
+        (groove,) = (shape.points[:2] for shape in shapes if shape.kind == "groove" and shape.name == f"slot {i + 1}")
+        assert sorted(np.hypot(*(groove - center).T)) == pytest.approx([0.05 * (np.sqrt(2) - 1), 0.05], abs=2e-3)
+    assert not [shape for shape in shapes if shape.kind == "block"]

@@ -125,6 +125,9 @@ TABLE = [
     Exhibit("four_bars",
             "All uprights stay parallel, also where the row lies flat, and the motion could branch.",
             4.0, 0.005, options=(("on_singular", "continue"),)),
+    Exhibit("geneva",
+            "Each turn of the crank moves the wheel on by a quarter, and holds it meanwhile.",
+            4.0, 0.005),
     Exhibit("hoecken",
             "P draws a line that is straight to 0.023 % while the crank turns through 140 degrees.",
             1.0, 0.0025, ("P",), speed=0.4),
@@ -205,7 +208,7 @@ def exhibits() -> list[Exhibit]:
     --------
     >>> from zerodrift import gallery
     >>> len(gallery.exhibits())
-    39
+    40
     """
     return [exhibit(name) for name in _models()]
 

@@ -17,6 +17,7 @@ from .closed_pendulum import closed_pendulum
 from .compass_gait import compass_gait
 from .four_bar import four_bar
 from .four_bars import four_bars
+from .geneva import geneva
 from .hoecken import hoecken
 from .jansen import jansen
 from .klann import klann
@@ -53,7 +54,7 @@ from .watt import watt
 
 __all__ = ["andrews", "bennett", "bicycle", "cam_follower", "chain", "chebyshev_lambda", "closed_pendulum", "coin",
            "compass_gait", "delta_robot", "double_cardan", "double_wishbone", "flyball_governor", "four_bar", "four_bars",
-           "gyroscope", "heavy_top", "hoecken", "hookes_joint", "jansen", "klann", "pantograph", "peaucellier",
+           "geneva", "gyroscope", "heavy_top", "hoecken", "hookes_joint", "jansen", "klann", "pantograph", "peaucellier",
            "planetary_gear", "quarter_car", "quick_return", "rattleback", "rolling_disc", "scissor_lift",
            "slider_crank", "snakeboard", "spatial_slider_crank", "stephenson", "stewart_platform", "suspension",
            "toggle_press", "trebuchet", "watt", "whipple_bicycle"]

@@ -116,10 +116,14 @@ def box(place: np.ndarray, along: np.ndarray, half_length: float, half_width: fl
 
 def hull(points: np.ndarray) -> np.ndarray:
     """The corners of the convex hull of points (n, 2), counter-clockwise (Andrew's monotone chain); two where all are in line."""
-    ordered = sorted({(float(x), float(y)) for x, y in points})
+    size = float(np.ptp(points, axis=0).max()) or 1.0
+    # Places that differ by less are one, so that two of them one above the other are in this order.
+    keys = map(tuple, np.round(points / (IN_LINE * size)).tolist())
+    apart = dict(zip(keys, points.tolist(), strict=True))
+    ordered = [(x, y) for _, (x, y) in sorted(apart.items())]
     if len(ordered) < 3:
         return np.array(ordered)
-    least = IN_LINE * float(np.ptp(points, axis=0).max()) ** 2
+    least = IN_LINE * size**2
 
     def half(places: list[tuple[float, float]]) -> list[tuple[float, float]]:
         corners: list[tuple[float, float]] = []

@@ -14,6 +14,7 @@ from ..elements.joints import Joint, Rolling
 from ..elements.numbers import Numbers
 from .plane_outline import APART, around, attached
 
+TOUCHES = 1e-5      # of a length: a point that is closer to a line is on it
 LEVEL = 1e-12       # slope below which a direction counts as level
 SMOOTH = 24         # corners of an arc for each radian of half its angle
 
@@ -145,10 +146,19 @@ class Posed:
         """Displacement of a joint's second point from its first along the axis."""
         return float((self.at(joint.second) - self.at(joint.first)) @ self.axis(joint))
 
+    def is_apart(self, joint: Joint) -> bool:
+        """True if a joint that may be released does not hold its second point on its line."""
+        if not may_be_apart(joint):
+            return False
+        apart = self.at(joint.second) - self.at(joint.first)
+        return abs(apart[0] * self.axis(joint)[1] - apart[1] * self.axis(joint)[0]) > TOUCHES * (1 + float(np.hypot(*apart)))
+
     def track(self, joint: Joint, ranges: dict[str, tuple[float, float]]) -> np.ndarray:
-        """Ends (2, 2) of the range of a joint's second point along its axis; the line passes through that point."""
+        """Ends (2, 2) of the range of a joint's second point along its axis, through that point if it holds it."""
         axis, now, place = self.axis(joint), self.displacement(joint), self.at(joint.second)
         low, high = ranges[joint.name]
+        if self.is_apart(joint):
+            now, place = 0.0, self.at(joint.first)
         return np.array([place + (low - now) * axis, place + (high - now) * axis])
 
     def line(self, joints: Sequence[Joint], ranges: dict[str, tuple[float, float]]) -> np.ndarray:
@@ -156,6 +166,11 @@ class Posed:
         start, axis = self.at(joints[0].first), self.axis(joints[0])
         ends = [(self.at(joint.first) - start) @ axis + end for joint in joints for end in ranges[joint.name]]
         return np.array([start + min(ends) * axis, start + max(ends) * axis, axis])
+
+
+def may_be_apart(joint: Joint) -> bool:
+    """True if a joint can be released and joined."""
+    return joint.switched is not None and joint.switched.active is not None
 
 
 def at_moments(parts: Parts, moments: Iterable[np.ndarray]) -> list[Posed]:

@@ -19,7 +19,7 @@ from ..elements.numbers import Numbers
 from .coupling_shapes import Couplings
 from .force_shapes import forces, walls
 from .plane_outline import APART
-from .plane_pose import Parts, Posed, at_moments
+from .plane_pose import Parts, Posed, at_moments, may_be_apart
 from .stop_shapes import stops
 
 ASSUMED = 0.35      # of the distance to the end of its body: length of a groove without a known motion
@@ -39,6 +39,7 @@ class Sketch:
         self.surfaces = [joint for joint in touching if isinstance(joint, Contact) and joint.is_bounded]
         rolling = [joint for joint in touching if joint not in self.surfaces]
         self.guided = [*self.sliding, *rolling]
+        self.switched = [joint for joint in self.guided if may_be_apart(joint)]
         self.roads = list(_by_line(rolling, numbers).values())
         self.has_shape = {joint.bodies[1].name for joint in self.sliding} | self.couplings.wheels
         self.has_shape |= {joint.bodies[1].name for joint in touching if joint.length_with(numbers)}
@@ -49,7 +50,14 @@ class Sketch:
         """Range of each slider and each wheel over all moments, from the position of its joint on the first body."""
         found: Ranges = {}
         for posed in moments:
+            close: dict[int, Joint] = {}      # by point: the groove that it is in, of several in line that with the closest end
+            for joint in sorted(self.switched, key=lambda each: -abs(posed.displacement(each))):
+                if not posed.is_apart(joint):
+                    close[id(joint.second)] = joint
             for joint in self.guided:
+                if may_be_apart(joint) and close.get(id(joint.second)) is not joint:
+                    found.setdefault(joint.name, (0.0, 0.0))
+                    continue
                 s = posed.displacement(joint)
                 low, high = found.get(joint.name, (s, s))
                 found[joint.name] = min(low, s), max(high, s)
@@ -169,7 +177,8 @@ def _slider(joint: Joint, posed: Posed, ranges: Ranges, lifted: float) -> Iterat
         yield Shape("slider", np.array([second, axis]), joint.name)
     elif has_groove(joint):
         yield Shape("groove", np.array([*track, axis]), joint.name)
-        yield Shape("block", np.array([second, axis]), joint.name)
+        if not may_be_apart(joint):
+            yield Shape("block", np.array([second, axis]), joint.name)
     else:
         yield Shape("guide", np.array([*track, axis]), joint.name)
         yield Shape("slider", np.array([second, axis]), joint.name)
@@ -179,7 +188,7 @@ def _held_by_ground(parts: Parts) -> list[Point]:
     """Points of the ground about which a body or a rod turns, each position once."""
     ground, held = parts.drawing.ground, dict[tuple[float, ...], Point]()
     for joint in parts.drawing.of(Joint):
-        if joint.switched is not None and joint.switched.active is not None:
+        if may_be_apart(joint):
             continue        # joined anywhere
         if _kind(joint) == "rod" or (is_pinned(joint) and joint.axis is None):
             for side in (joint.first, joint.second):
