@@ -114,3 +114,37 @@ def test_a_woodpecker_pecks_its_way_down():
     assert [list(each.state.values()) for each in sol.phases] == [[words[mode] for mode in modes] for _, modes in history]
     end = [float(sol[name][-1]) for name in ("sleeve.position.y", "sleeve.angle", "bird.angle")]
     assert end == pytest.approx(list(q), abs=1e-7)
+
+
+def test_a_slider_crank_with_clearance_in_its_pin():
+    """A pin of 9.5 mm in a bore with 0.5 mm of play, e 0.4, mu 0.01; the crank turns at a constant speed."""
+    crank, rod, speed, start, pin, play, e, mu = 0.05, 0.12, 60.0, 0.6, 0.0095, 0.0005, 0.4, 0.01
+    joint = crank * np.array([math.cos(start), math.sin(start)])
+    tilt = -math.asin(joint[1] / rod)
+    place = joint[0] + rod * math.cos(tilt)
+    turning = -crank * speed * math.cos(start) / (rod * math.cos(tilt))         # as without play
+    moving = -crank * speed * math.sin(start) - rod * turning * math.sin(tilt)
+    bore = place - 2e-4         # the pin starts off its middle
+    m = zd.Mechanism("engine", gravity=(0, -G))
+    arm = m.link("crank", (0, 0), tuple(joint), mass=0.3)
+    link = m.link("rod", tuple(joint), (place, 0), mass=0.21, inertia=2.5e-4)
+    slider = m.body("slider", 0.14, 0.0, at=(bore, 0))
+    shaft = m.revolute("shaft", m.ground, arm.start)
+    m.revolute("joint", arm.end, link.start)
+    m.prismatic("guide", m.ground, slider, axis=(1, 0))
+    m.motor("drive", shaft, speed=speed)
+    m.contact("pin", link.end, slider.circle((bore, 0), pin + play, outside=False), radius=pin, restitution=e, friction=mu)
+    m.start({"rod.angular_velocity": turning, "slider.velocity.x": moving})
+    sol = zd.simulate(m, 0.03, rtol=1e-11, atol=1e-14)
+    angle, x = Q[:2]
+    middle, end = (crank * direction(start + speed * T) + share * rod * direction(angle) for share in (0.5, 1))
+    apart = end - sp.Matrix([x, 0])
+    length = sp.sqrt(apart.dot(apart))
+    slip = sp.Matrix([-apart[1], apart[0]]).dot(rate(apart, 2)) / length + pin * V[0]
+    energy = kinetic(0.21, middle, 2) + 2.5e-4 * V[0]**2 / 2 + 0.14 * V[1]**2 / 2
+    other = Machine(Q[:2], V[:2, :], T, energy, 0.21 * G * middle[1], [Contact(play - length, slip, e, (mu, mu))])
+    _, q, _, impacts, _ = other.run([tilt, bore], [turning, moving], 0.03)
+    assert len(impacts) > 10
+    assert sol.impacts["t"][:10] == pytest.approx([each.t for each in impacts[:10]], abs=1e-9)
+    found = [float(sol[name][-1]) for name in ("rod.angle", "slider.position.x")]
+    assert found == pytest.approx(list(q), abs=1e-6)        # after bounces that the rest speed ends
