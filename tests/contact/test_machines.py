@@ -148,3 +148,24 @@ def test_a_slider_crank_with_clearance_in_its_pin():
     assert sol.impacts["t"][:10] == pytest.approx([each.t for each in impacts[:10]], abs=1e-9)
     found = [float(sol[name][-1]) for name in ("rod.angle", "slider.position.x")]
     assert found == pytest.approx(list(q), abs=1e-6)        # after bounces that the rest speed ends
+
+
+def test_a_ratchet_turns_one_way():
+    """A rack with teeth is pushed on under a pawl, falls back onto the face of a tooth, and is held there."""
+    pitch, height, push, weight = 0.02, 0.008, 0.8, 0.05 * G
+    m = zd.Mechanism("ratchet", gravity=(0, -G))
+    rack, pawl = m.body("rack", 1.0, 1.0), m.body("pawl", 0.05, 1e-4, at=(0.5 * pitch, 0.5 * height))
+    slide = m.prismatic("slide", m.ground, rack, axis=(1, 0))
+    m.prismatic("guide", m.ground, pawl, axis=(0, 1))
+    tip = pawl.point((0, 0))
+    for i in range(3):      # ramps and faces cross where they meet below, as points pass beside ends
+        top = ((i + 1) * pitch, height)
+        m.contact(f"ramp{i}", tip, rack.segment(((i - 0.2) * pitch, -0.2 * height), top))
+        m.contact(f"face{i}", tip, rack.segment(top, (top[0], -0.2 * height)))
+    m.motor("push", slide, force=lambda t: -push if t < 0.2 else push)
+    sol = zd.simulate(m, 1.5, **FINE)
+    assert sol["slide.displacement"].min() < -0.6 * pitch
+    assert sol["slide.displacement"][-1] == pytest.approx(-0.5 * pitch, abs=1e-12)
+    slope = height / pitch
+    assert sol["face0.force"][-1] == pytest.approx([push + weight * slope, 0], abs=1e-9)
+    assert sol["ramp1.force"][-1] == pytest.approx([-weight * slope, weight], abs=1e-9)
