@@ -116,6 +116,7 @@ from .systems.callables import System as System
 from .systems.native import get_include as get_include
 from .systems.native import native as native
 from .systems.native import numba_signature as numba_signature
+from .systems.one_sided import OneSided as OneSided
 from .systems.structure import Structure as Structure
 from .tracing.trace import reach as reach
 from .tracing.trace import trace as trace

@@ -194,7 +194,7 @@ class Runs:
     def assembles(self, system: BaseSystem) -> bool:
         """True if starts must be made consistent with the constraints, as parameters vary."""
         finds_start = isinstance(system, MechanismSystem) and not self.states
-        return bool(self.may_assemble and self.parameters and system.m and not finds_start)
+        return bool(self.may_assemble and self.parameters and system.m and not finds_start and not system._groups)
 
     def starts(self, tables: NumberTables, first: int, last: int) -> tuple[np.ndarray | None, np.ndarray | None]:
         """Initial p (k, nq) and v (k, nv) of the runs first ... last - 1, not yet consistent; NaN for refused runs.

@@ -7,7 +7,7 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
-from ..errors import MissingPackage
+from ..errors import MissingPackage, WrongValue
 
 try:
     import sympy
@@ -15,6 +15,7 @@ except ImportError as error:
     raise MissingPackage("symbolic systems need SymPy: pip install 'zerodrift[symbolic]'") from error
 
 from .._private.types import Equations, Expression
+from ..systems.one_sided import OneSided, checked, switched
 from ..systems.structure import Structure
 from .arguments import Definition
 from .cache_key import fingerprint
@@ -39,6 +40,7 @@ def symbolic(
     bias: Sequence[Expression] | Expression | None = None, points: Iterable[Sequence[Expression]] = (),
     quaternions: Sequence[int | str | Expression] = (), units: Sequence[str] | None = None, p0: ArrayLike | None = None,
     v0: ArrayLike | None = None, name: str = "symbolic", progress: bool = True, inputs: Sequence[Expression | str] = (),
+    one_sided: Mapping[str, OneSided] | None = None,
 ) -> SymbolicSystem:
     """System from SymPy expressions: its terms are derived, written as C, compiled and cached.
 
@@ -82,6 +84,8 @@ def symbolic(
         If True, report the current stage on stderr when it takes longer than two seconds.
     inputs : sequence of Symbol or str
         Symbols in `force` that a `Run` sets between steps; 0 before, unless `parameters` has other values.
+    one_sided : dict of str to OneSided
+        Gaps that must not be negative, by name, with restitution and friction.
 
     Returns
     -------
@@ -129,12 +133,27 @@ def symbolic(
     >>> sol.p[-1].round(5)
     array([-0.98629, -0.16501])
     """
-    values = _with_inputs({} if parameters is None else parameters, inputs)
+    values, gaps = _with_inputs({} if parameters is None else parameters, inputs), checked(one_sided)
+    if gaps:
+        constraints = _followed("constraint", constraints, {name: each.gap for name, each in gaps.items()})
+        slips = {f"{name}.slip": each.slip for name, each in gaps.items() if each.slip is not None}
+        nonholonomic = _followed("nonholonomic", nonholonomic, slips)
     definition = Definition(coordinates, kinetic, potential, force, constraints, nonholonomic, speeds, kinematics,
                             values, time, (mass, bias), points)
     with Progress(name, progress) as say:
-        return SymbolicSystem(_code(definition, say), definition.values, units, p0, v0, name, say, definition.named(quaternions),
-                              inputs=[str(each) for each in inputs])
+        code = _code(definition, say)
+        return SymbolicSystem(code, definition.values, units, p0, v0, name, say, definition.named(quaternions),
+                              inputs=[str(each) for each in inputs], groups=switched(gaps, *code.sizes[2:]))
+
+
+def _followed(word: str, given: Any, more: Mapping[str, Any]) -> Any:
+    """Constraints, and then those of `more`, by name."""
+    named = isinstance(given, Mapping)
+    rows = [given] if isinstance(given, sympy.Expr | sympy.Equality) else list(given.values() if named else given or ())
+    names = list(map(str, given)) if named else [f"{word}{i}" for i in range(len(rows))]
+    if twice := {*names} & {*more}:
+        raise WrongValue(f"one_sided must have other names than the constraints, and has {min(twice)!r}", "duplicate-name")
+    return dict(zip([*names, *more], [*rows, *more.values()], strict=True)) if more else given
 
 
 def _with_inputs(parameters: Any, inputs: Sequence[Any]) -> Any:

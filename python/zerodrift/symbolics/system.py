@@ -20,6 +20,7 @@ from .._private.gateway.inputs import Bound, Place
 from ..errors import NeedsCompiler, NoCompilerWarning, UnsuitedIntegrator, WrongValue
 from ..systems.base import BaseSystem
 from ..systems.defaults import WithInputs
+from ..systems.one_sided import Switched
 from ..systems.parameter_tables import NumberTables, not_finite, refusals
 from ..systems.structure import Structure, checked
 from ..systems.variables import quaternion_places, with_units
@@ -77,8 +78,8 @@ class SymbolicSystem(BaseSystem):
     def __init__(self, code: Code, parameters: Mapping[str, float], units: Sequence[str] | None = None, p0: Any = None,
                  v0: Any = None, name: str = "symbolic", progress: Callable[[str], Any] = lambda what: None,
                  quaternions: Sequence[int | str] = (), closed_form: ClosedFormFunctions | None = None,
-                 inputs: Sequence[str] = ()) -> None:
-        self._inputs = tuple(inputs)
+                 inputs: Sequence[str] = (), groups: Sequence[Switched] = ()) -> None:
+        self._inputs, self._switched = tuple(inputs), list(groups)
         self._code, self.name, self.parameters, self._units = code, name, dict(parameters), units
         self._places = quaternion_places(quaternions, code.coordinates, "A" in code.provides)
         self.coordinates, self.velocities = with_units(code.coordinates, code.velocities, units, "A" not in code.provides,
@@ -101,6 +102,7 @@ class SymbolicSystem(BaseSystem):
             warnings.warn(f"there is no C compiler (looked for {compilers.looked_for()}): {self.name} is interpreted, "
                           f"several times slower", NoCompilerWarning, stacklevel=3)
         self._core = self._native() if self.compiled else self._program_core()
+        self._groups = gateway.switch(self._core, self._switched)
         self._with_closed_form: dict[tuple[str, bool], NativeCore] = {}     # by vector unit, and whether they embed
 
     def _native(self) -> NativeCore:
@@ -120,6 +122,8 @@ class SymbolicSystem(BaseSystem):
 
     def _closed_form_core(self, vector: str = "baseline", embeds: bool = False) -> gateway.CoreSystem:
         functions, core = self._functions(embeds), self._core
+        if self._groups:
+            return core
         if isinstance(core, ProgramCore):
             return self._with_programs(core, embeds)
         library = functions.library(vector)
@@ -266,6 +270,7 @@ class SymbolicSystem(BaseSystem):
             other._values[self._code.parameters.index(key)] = checks.number(f"parameter {key!r}", value)
         other._core = (self._core.with_numbers(other._values) if isinstance(self._core, ProgramCore)
                        else self._core.with_data(other._data()))
+        gateway.switch(other._core, self._switched)
         return other
 
     def starting(self, p0: Any = None, v0: Any = None) -> SymbolicSystem:
@@ -302,14 +307,15 @@ class SymbolicSystem(BaseSystem):
         how = self._closed_form.in_words if self.compiled else ", interpreted"
         return f"<zd.symbolic {self.name}: {self._sizes_in_words()}{how}>"
 
-    def _definition(self) -> str:
-        return self._code.c_source
+    def _definition(self) -> Any:
+        return (self._code.c_source, [tuple(group) for group in self._switched]) if self._switched else self._code.c_source
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (self._code, self.parameters, self._units, self.p0, self.v0, self.name, self._places, self._closed_form,
-                           self._inputs)
+                           self._inputs, self._switched)
 
 
 def _restored(code: Code, parameters: dict[str, float], units: Any, p0: Any, v0: Any, name: str, places: tuple[int, ...],
-              closed_form: ClosedFormFunctions, inputs: tuple[str, ...] = ()) -> SymbolicSystem:
-    return SymbolicSystem(code, parameters, units, p0, v0, name, quaternions=places, closed_form=closed_form, inputs=inputs)
+              closed_form: ClosedFormFunctions, inputs: tuple[str, ...] = (), groups: Sequence[Switched] = ()) -> SymbolicSystem:
+    return SymbolicSystem(code, parameters, units, p0, v0, name, quaternions=places, closed_form=closed_form, inputs=inputs,
+                          groups=groups)

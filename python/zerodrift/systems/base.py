@@ -192,7 +192,8 @@ class BaseSystem(Defaults):
 
     def __str__(self) -> str:
         rows = [("coordinates", _listed(self.coordinates)), ("velocities", _listed(self.velocities)),
-                ("holonomic", _listed(self.constraints[:self.mh])), ("nonholonomic", _listed(self.constraints[self.mh:])),
+                ("holonomic", _listed(self._lasting(0, self.mh))), ("nonholonomic", _listed(self._lasting(self.mh, self.m))),
+                *([("switching", ", ".join(dict.fromkeys(name for name, _ in self._groups)))] if self._groups else []),
                 ("freedom", self._freedom())]
         units = self._parameter_units()
         numbers = _shortened([f"{name} = {checks.shown(value)} {units.get(name, '')}".rstrip()
@@ -200,18 +201,24 @@ class BaseSystem(Defaults):
         rows += [("parameters" if not i else "", number) for i, number in enumerate(numbers)]
         return "\n".join([self.name, *(f"  {title:14}{what}" for title, what in rows)])
 
+    def _lasting(self, first: int, last: int) -> list[Variable]:
+        """Constraints of a range that do not switch."""
+        rows = gateway.switching_rows(self._core) if self._groups else ()
+        return [variable for row, variable in enumerate(self.constraints) if first <= row < last and row not in rows]
+
     def _freedom(self) -> str:
-        """Number of degrees of freedom, from the rank of the constraints at the start."""
-        least = f"at least {max(0, self.nv - self.m)}"
-        if not self.m:
+        """Number of degrees of freedom, from the rank of the constraints at the start; without those that switch."""
+        m = len(self._lasting(0, self.m))
+        least = f"at least {max(0, self.nv - m)}"
+        if not m:
             return str(self.nv)
         try:
-            C = self.evaluate().C
+            C = np.delete(self.evaluate().C, list(gateway.switching_rows(self._core)), axis=0)
             size = np.abs(C).max(axis=1, keepdims=True)
             rank = int(np.linalg.matrix_rank(C / np.where(size > 0, size, 1)))
         except Exception:       # there is no start, or a user's own function fails there
             return least
-        return f"{self.nv - rank}" + (f", redundant constraints at the start: {self.m - rank}" if rank < self.m else "")
+        return f"{self.nv - rank}" + (f", redundant constraints at the start: {m - rank}" if rank < m else "")
 
     def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int,
                        closed_form: tuple[str, bool] | None = None) -> NumberTables | None:

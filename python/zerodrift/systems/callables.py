@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,8 @@ from ..errors import WrongType, WrongValue
 from .base import BaseSystem
 from .defaults import WithInputs
 from .measure_values import component_names
+from .one_sided import OneSided, switched, together
+from .one_sided import checked as checked_one_sided
 from .structure import Structure, checked
 from .user_callables import Function
 from .variables import quaternion_places, with_units
@@ -71,6 +73,8 @@ class System(BaseSystem):
         The start, unless `simulate` is given another; `v0` left out: at rest.
     name : str
         For tables and plots.
+    one_sided : dict of str to OneSided
+        Gaps that must not be negative, by name, with restitution and friction.
 
     Notes
     -----
@@ -111,14 +115,17 @@ class System(BaseSystem):
         xi: UserFunction | None = None, kinematics: UserFunction | None = None, quaternions: Sequence[int | str] = (),
         potential: UserFunction | None = None, power: UserFunction | None = None, structure: Structure | None = None,
         units: Sequence[str] | None = None, parameters: dict[str, Any] | None = None, p0: ArrayLike | None = None,
-        v0: ArrayLike | None = None, name: str | None = None,
+        v0: ArrayLike | None = None, name: str | None = None, one_sided: Mapping[str, OneSided] | None = None,
     ) -> None:
         parameters = {key: _parameter(key, value) for key, value in checks.parameters(parameters).items()}
         self._given = {key: _as_now(value) for key, value in locals().items() if key not in ("self", "__class__")}
         self.name, self.parameters = name or "system", parameters
         names = checks.names("coordinates", coordinates, "p")
         self.p0 = None if p0 is None else checks.frozen(checks.vector("p0", p0, len(names)))
-        functions = {key: Function(key, self._given[key], self.parameters) for key in SHAPES if self._given[key] is not None}
+        terms, one_sided = self._given, checked_one_sided(one_sided)
+        if one_sided:
+            terms = self._with_gaps(one_sided)
+        functions = {key: Function(key, terms[key], self.parameters) for key in SHAPES if terms[key] is not None}
         if "jacobian" in functions and "constraints" not in functions:
             raise WrongValue("jacobian must be given with constraints", "missing-argument")
         places = quaternion_places(quaternions, names, kinematics is not None)
@@ -135,6 +142,21 @@ class System(BaseSystem):
         self._core.given_jacobian = "jacobian" in functions
         self.constraints = tuple(Variable(f"constraint{i}", "") for i in range(self.m))
         self.v0 = None if v0 is None else checks.frozen(checks.vector("v0", v0, self.nv))
+        groups = switched(one_sided, self.mh, self.mn)
+        self._groups = gateway.switch(self._core, groups)
+        if groups:
+            rows = {group.first: f"{group.name}.slip" if group.normal else group.name for group in groups}
+            self.constraints = tuple(Variable(rows.get(i, f"constraint{i}"), "") for i in range(self.m))
+
+    def _with_gaps(self, one_sided: dict[str, OneSided]) -> dict[str, Any]:
+        """Terms with the rows of gaps and slip velocities after those of the constraints."""
+        if wrong := [name for name in ("jacobian", "xi") if self._given[name] is not None]:
+            raise WrongValue(f"{wrong[0]} must be left out where there is one_sided, whose derivatives are computed",
+                             "conflicting-arguments")
+        gaps, slips = {name: each.gap for name, each in one_sided.items()}, {
+            name: each.slip for name, each in one_sided.items() if each.slip is not None}
+        return {**self._given, **{what: together(what, self._given[what], rows, self.parameters)
+                                  for what, rows in (("constraints", gaps), ("nonholonomic", slips))}}
 
     def _with(self, changed: dict[str, Any]) -> System:
         return type(self)(**(self._given | {"parameters": self.parameters | changed}))

@@ -40,7 +40,7 @@ from .base import (
     required,
 )
 from .callbacks import CALLBACK_CODE, PythonCore, Watcher
-from .derived_systems import PerturbedCore, gaps, in_phase, perturbed
+from .derived_systems import PerturbedCore, gaps, in_phase, perturbed, switch, switching_rows
 from .inputs import Following, Inputs
 from .kinematics import Prescribing, Tracked, quintic_spline
 from .known_events import KnownEvent

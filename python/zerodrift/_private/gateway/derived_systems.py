@@ -134,3 +134,22 @@ _classes: dict[type, type] = {}
 
 def _class_of(of: type) -> type:
     return _classes.setdefault(of, type("InPhase", (_InPhase, of), {}))
+
+
+def switch(core: CoreSystem, groups: Sequence[Any]) -> list[tuple[str, str]]:
+    """Let these rows of a system switch; the names and kinds of their groups."""
+    if groups:
+        names = [ffi.new("char[]", group.name.encode()) for group in groups]
+        c = ffi.new("zd_group[]", [
+            {"name": name, "first": group.first, "rows": 1, "sign": 1, "normal": group.normal, "friction": group.friction,
+             "restitution": group.restitution, "kind": lib.ZD_FRICTION if group.normal else lib.ZD_ONE_SIDED}
+            for name, group in zip(names, groups, strict=True)])
+        core.c.groups, core.c.group = len(groups), c
+        core.__dict__["_switched"] = c, names
+    return [(group.name, group.kind) for group in groups]
+
+
+def switching_rows(core: CoreSystem) -> set[int]:
+    """Constraints of groups."""
+    groups = [core.c.group[g] for g in range(core.c.groups)]
+    return {row for group in groups for row in range(group.first, group.first + group.rows)}
