@@ -10,6 +10,8 @@ from .._private import checks
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
 
+EARLY = 1e-12       # rad: feet are set down earlier, so that the start is not itself such an event
+
 
 @checked
 def compass_gait(*, leg_length: float = 1.0, foot_distance: float = 0.5, leg_mass: float = 5.0, hip_mass: float = 10.0,
@@ -68,9 +70,10 @@ def compass_gait(*, leg_length: float = 1.0, foot_distance: float = 0.5, leg_mas
     m.particle("hip mass", masses[1], at=left.end)
     m.revolute("hip", left.end, right.end)
     of = {"left": left.angle, "right": right.angle}
+    level = 2 * normal + EARLY
     strikes = {leg: m.measure(f"{leg.name} strike", law, of=of, unit="rad") for leg, law in (
-        (left, lambda left, right: min(2 * normal - left - right, left - right)),
-        (right, lambda left, right: min(2 * normal - left - right, right - left)))}
+        (left, lambda left, right: min(level - left - right, left - right)),
+        (right, lambda left, right: min(level - left - right, right - left)))}
     for leg, other in ((left, right), (right, left)):
         foot = m.revolute(f"{leg.name} foot", m.ground, leg.start, active=leg is left)
         m.latch(f"{leg.name} step", foot, when=strikes[leg], until=strikes[other])
