@@ -6,8 +6,8 @@ Bodies move in absolute coordinates (x, y, angle); joints are rows of two sides 
 
 for impulses P that obey, at the end of the step: joints G v1 = 0; contacts 0 <= Pn, complementary to
 Gn v1 + e min(Gn v0, 0) >= 0 (Newton's restitution); Coulomb's law |Pt| <= mu Pn, opposite to the slip Gt v1; dry friction of
-joints |P| <= F h. Steps are halved down to `finest` where a contact closes, and to the root of h finest where the slip of one
-changes its sign.
+joints |P| <= F h. Steps are halved down to `finest` where a contact closes or passes the end of its shape, and to the root of h
+finest where the slip of one changes its sign.
 """
 
 import itertools
@@ -16,6 +16,8 @@ import operator
 from typing import NamedTuple
 
 import numpy as np
+
+from contact.shapes import Contact, side_of, touch, zone_of
 
 GROUND = -1
 STILL = 1e-9            # m/s, rad/s: below it a velocity is zero
@@ -31,19 +33,6 @@ class Body(NamedTuple):
     inertia: float
     q: tuple[float, float, float]
     v: tuple[float, float, float]
-
-
-class Contact(NamedTuple):
-    """Point of a body, or disc around it, on the left of the line of another body through `start` with this direction angle."""
-
-    body: int
-    point: tuple[float, float]
-    line: int
-    start: tuple[float, float]
-    angle: float
-    radius: float
-    e: float
-    mu: float
 
 
 class Pin(NamedTuple):
@@ -107,20 +96,39 @@ def _row(n, *parts):
     return row
 
 
-def _contact(of, frames, n):
+def _place(of, frames):
+    """Point relative to its body, to the other body, and along and left of the shape's direction; cosine and sine of that."""
     x, y, c, s = frames[of.body]
     rx, ry = c * of.point[0] - s * of.point[1], s * of.point[0] + c * of.point[1]
     X, Y, C, S = frames[of.line]
     ca, sa = math.cos(of.angle), math.sin(of.angle)
     dx, dy = C * ca - S * sa, S * ca + C * sa
     ax, ay = C * of.start[0] - S * of.start[1], S * of.start[0] + C * of.start[1]
-    fx, fy = x + rx - X, y + ry - Y             # from the other body's centre to the point
-    gap = -dy * (fx - ax) + dx * (fy - ay) - of.radius
+    fx, fy = x + rx - X, y + ry - Y
+    along, across = dx * (fx - ax) + dy * (fy - ay), -dy * (fx - ax) + dx * (fy - ay)
+    return rx, ry, fx, fy, along, across, dx, dy
+
+
+def _contact(of, frames, n, side):
+    rx, ry, fx, fy, along, across, c, s = _place(of, frames)
+    gap, (u, w) = touch(of, along, across, side)
+    dx, dy = c * w + s * u, s * w - c * u        # along the shape where it touches, which has its normal on the left
     normal = _row(n, (of.body, -dy, dx, dy * ry + dx * rx), (of.line, dy, -dx, -(dx * fx + dy * fy)))
     tx, ty = rx + of.radius * dy, ry - of.radius * dx       # to the material point that touches
     bx, by = fx + of.radius * dy, fy - of.radius * dx
     slip = _row(n, (of.body, dx, dy, dy * tx - dx * ty), (of.line, -dx, -dy, dx * by - dy * bx)) if of.mu else None
     return Row(gap, normal, slip, of.e, of.mu)
+
+
+def _zones(scene, q):
+    frames = _frames(q.tolist())
+    return [zone_of(of, *_place(of, frames)[4:6]) for of in scene.contacts]
+
+
+def sides_at(scene, q, sides):
+    """Sides of all contacts from which their points may come, which they had at last."""
+    frames = _frames(q.tolist())
+    return [side_of(of, *_place(of, frames)[4:6], side) for of, side in zip(scene.contacts, sides, strict=True)]
 
 
 def _joint(of, q, frames):
@@ -145,11 +153,13 @@ def _joint(of, q, frames):
     return rows, dx * (fx - ax) + dy * (fy - ay), _row(n, (of.other, dx, dy, 0), (of.one, -dx, -dy, dx * fy - dy * fx))
 
 
-def rows(scene, q):
+def rows(scene, q, sides=None):
     """All rows at q: G of the joints, of what may press, and of dry friction in joints."""
+    sides = sides or sides_at(scene, q, [0] * len(scene.contacts))
     q = q.tolist()
     frames = _frames(q)
-    joints, pressing, dry = [], [_contact(each, frames, len(q)) for each in scene.contacts], []
+    joints, pressing, dry = [], [], []
+    pressing += [_contact(each, frames, len(q), side) for each, side in zip(scene.contacts, sides, strict=True)]
     for each in scene.joints:
         both, value, along = _joint(each, q, frames)
         joints += both
@@ -270,7 +280,8 @@ def solve(A, b, laws, known):
 
 def _candidates(pressing, pressing0, pressed):
     """Contacts that would penetrate at the end of the step, or were pressed and still touch."""
-    return [k for k, row in enumerate(pressing) if row.gap < 0 or (pressed[k] and pressing0[k].gap < TOUCHES)]
+    return [k for k, row in enumerate(pressing) if row.gap < 0 or (pressed[k] and pressing0[k].gap < TOUCHES and
+                                                                    row.gap < math.inf)]
 
 
 def _laws(scene, pressing, taking, h):
@@ -305,13 +316,13 @@ def _impulses(joints, A, b, laws, known):
     return P
 
 
-def _step(scene, masses, forces, q, v, h, pressed, start, known):
+def _step(scene, masses, forces, q, v, h, pressed, start, known, sides):
     """State at the end of a step of size h, what is pressed, its rows, and whether a contact closes in it and a slip turns."""
     joints0, pressing0, dry0 = start
     free, j = v + h * forces, len(joints0)
     q1, v1, P, taking = q + h * v + h * h / 2 * forces, free, None, []
     for sweep in range(5):
-        joints, pressing, dry = rows(scene, q1)
+        joints, pressing, dry = rows(scene, q1, sides)
         if sweep == (1 if j else 0):
             taking = _candidates(pressing, pressing0, pressed)
         laws = _laws(scene, pressing, taking, h)
@@ -326,7 +337,9 @@ def _step(scene, masses, forces, q, v, h, pressed, start, known):
         last, q1 = q1, q + h / 2 * (v + v1)
         if sweep >= (2 if j else 1) and np.abs(q1 - last).max() < 1e-9 * h:
             break
-    now, closes, turns = [False] * len(pressing), False, False
+    now, turns = [False] * len(pressing), False
+    closes = any(pressed) and any(is_pressed and one != other for is_pressed, one, other in
+                                  zip(pressed, _zones(scene, q), _zones(scene, q1), strict=False))
     for i, k in enumerate(taking):
         if P[j + i] > 0:
             now[k] = True
@@ -335,7 +348,8 @@ def _step(scene, masses, forces, q, v, h, pressed, start, known):
                 turns |= _sign(np.dot(pressing0[k].slip, v)) != _sign(np.dot(pressing[k].slip, v1))
     for row0, row in zip(dry0, dry, strict=True):
         turns |= _sign(np.dot(row0, v)) != _sign(np.dot(row, v1))
-    return q1, v1, now, rows(scene, q1), closes, turns
+    sides = sides_at(scene, q1, sides)
+    return q1, v1, now, rows(scene, q1, sides), closes, turns, sides
 
 
 def _sign(value):
@@ -350,7 +364,8 @@ def simulate(scene, t_eval, h, finest, most=10**6):
     q, v = (np.array(given, float).ravel() for given in zip(*((body.q, body.v) for body in scene.bodies), strict=True))
     masses = np.array([x for body in scene.bodies for x in (body.mass, body.mass, body.inertia or 1.0)])
     forces = np.array([x for body in scene.bodies for x in (*scene.gravity, 0.0)])
-    start, known = rows(scene, q), {}
+    sides, known = sides_at(scene, q, [0] * len(scene.contacts)), {}
+    start = rows(scene, q, sides)
     pressed = [False] * len(start[1])
     found_q, found_v = np.full((len(t_eval), len(q)), np.nan), np.full((len(t_eval), len(q)), np.nan)
     t, size, steps, medium = 0.0, h, 0, math.sqrt(h * finest)
@@ -360,7 +375,7 @@ def simulate(scene, t_eval, h, finest, most=10**6):
             step = rest if size >= rest else size if 2 * size <= rest else rest / 2
             while True:
                 steps += 1
-                q1, v1, now, rows1, closes, turns = _step(scene, masses, forces, q, v, step, pressed, start, known)
+                q1, v1, now, rows1, closes, turns, sides1 = _step(scene, masses, forces, q, v, step, pressed, start, known, sides)
                 if not ((closes and step > finest) or (turns and step > medium)):
                     break
                 step /= 2
@@ -369,6 +384,6 @@ def simulate(scene, t_eval, h, finest, most=10**6):
             if step < rest:
                 size = min(h, 2 * step)
             t = end if step == rest else t + step
-            q, v, pressed, start = q1, v1, now, rows1
+            q, v, pressed, start, sides = q1, v1, now, rows1, sides1
         found_q[i], found_v[i] = q, v
     return found_q, found_v

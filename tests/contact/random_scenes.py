@@ -7,7 +7,9 @@ import warnings
 import numpy as np
 
 import zerodrift as zd
-from contact.moreau import GROUND, Body, Contact, Pin, Scene, Slider, rows, simulate
+from contact.moreau import GROUND, Body, Pin, Scene, Slider, rows, simulate
+from contact.random_shapes import SHAPED
+from contact.shapes import Contact
 
 END = 1.0               # s
 SAMPLES = np.linspace(0, END, 51)
@@ -195,14 +197,20 @@ def _slider_crank(d):
 
 
 KINDS = (_particles, _box, _discs, _double_pendulum, _slider, _incline, _plank, _on_a_block, _bar, _slider_crank)
+LINES = 1000            # seeds of scenes without other shapes; later ones have them
 MAX_CONTACTS = 6
+
+
+def kind_of(seed):
+    """Function that draws the scene of a seed."""
+    return KINDS[seed % len(KINDS)] if seed < LINES else SHAPED[seed % len(SHAPED)]
 
 
 def scene_of(seed):
     """Kind and scene of a seed, without penetration at the start and with one to six contacts and stops."""
     for attempt in range(1000):
         draw = Draw((seed, attempt))
-        kind = KINDS[seed % len(KINDS)]
+        kind = kind_of(seed)
         scene = Scene((0.0, -9.81), *kind(draw))
         pressing = rows(scene, np.array([body.q for body in scene.bodies]).ravel())[1]
         if 1 <= len(pressing) <= MAX_CONTACTS and all(row.gap > -1e-12 for row in pressing):
@@ -217,7 +225,8 @@ def scaled(scene, length, mass):
 
     bodies = [Body(mass * each.mass, mass * length**2 * each.inertia, *((*larger(of[:2]), of[2]) for of in (each.q, each.v)))
               for each in scene.bodies]
-    contacts = [each._replace(point=larger(each.point), start=larger(each.start), radius=length * each.radius)
+    contacts = [each._replace(point=larger(each.point), start=larger(each.start), radius=length * each.radius,
+                              size=length * each.size)
                 for each in scene.contacts]
     joints = []
     for each in scene.joints:
@@ -254,6 +263,22 @@ def _join(m, name, joint, scene, bodies):
         m.start({made.speed: rate})
 
 
+def _shape(of, contact):
+    """Shape of a contact on its body."""
+    start, angle, size, shape = contact.start, contact.angle, contact.size, contact.shape
+    at = of.point(start)
+
+    def on_it(turn):
+        return of.point(np.add(start, (abs(size) * math.cos(angle + turn), abs(size) * math.sin(angle + turn))))
+
+    if shape == "circle":
+        return of.circle(at, abs(size), outside=size >= 0)
+    if shape == "arc":
+        return of.arc(at, on_it(-contact.half), on_it(contact.half), outside=size > 0)
+    end = of.point(np.add(start, (math.cos(angle) * (size or 1), math.sin(angle) * (size or 1))))
+    return of.segment(at, end) if shape == "segment" else of.line(at, end)
+
+
 def mechanism_of(scene):
     """The same scene as a mechanism."""
     m = zd.Mechanism("scene", gravity=scene.gravity)
@@ -265,9 +290,7 @@ def mechanism_of(scene):
     for i, contact in enumerate(scene.contacts):
         body, of = bodies[contact.body], bodies[contact.line]
         point = body.point(contact.point) if scene.bodies[contact.body].inertia else body
-        end = np.add(contact.start, (math.cos(contact.angle), math.sin(contact.angle)))
-        m.contact(f"c{i}", point, of.line(of.point(contact.start), of.point(end)), radius=contact.radius,
-                  restitution=contact.e, friction=contact.mu)
+        m.contact(f"c{i}", point, _shape(of, contact), radius=contact.radius, restitution=contact.e, friction=contact.mu)
     hung = {joint.other for joint in scene.joints}
     for i, (_, inertia, _, v) in enumerate(scene.bodies):
         if i not in hung:
