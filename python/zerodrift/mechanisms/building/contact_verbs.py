@@ -81,7 +81,7 @@ class ContactVerbs(Elements):
         if radius or any(_friction(name, friction)):
             self._turning(name, "friction or radius of", *(body for body in (other.body,) if radius))
         kind = Contact if isinstance(shape, Line) else RoundContact
-        return self._add(kind(name, one, other, radius, shape, _restitution(name, restitution), _friction(name, friction)))
+        return self._add(kind(name, one, other, radius, shape, restitution_of(name, restitution), _friction(name, friction)))
 
     def stop(self, name: str, measure: Measure | str, *, lower: float | None = None, upper: float | None = None,
              restitution: float = 0.0) -> Stop:
@@ -129,7 +129,7 @@ class ContactVerbs(Elements):
             raise WrongValue(f"lower of {name!r} must be less than upper, and {lower:g} is not less than {upper:g}",
                              "out-of-range")
         effort = "torque" if "ang" in of.rpartition(".")[2] else "force"
-        return self._add(Stop(name, of, lower, upper, _restitution(name, restitution), effort))
+        return self._add(Stop(name, of, lower, upper, restitution_of(name, restitution), effort))
 
 
     def latch(self, name: str, joint: Joint | str, *, when: MeasureLike | Expression | Event | None = None,
@@ -210,7 +210,8 @@ def with_switches(m: Elements, joint: Joint, given: Mapping[str, Any]) -> Joint:
     return joint
 
 
-def _restitution(name: str, given: Any) -> float:
+def restitution_of(name: str, given: Any) -> float:
+    """Coefficient of restitution, checked."""
     value = checks.number(f"restitution of {name!r}", given, least=0)
     if value > 1:
         raise WrongValue(f"restitution of {name!r} must be at most 1, not {value:g}", "out-of-range")

@@ -14,6 +14,7 @@ from ..elements.measures import Measure, name_of
 from ..elements.numbers import AS_GIVEN
 from ..equations.measure_names import checked_reading
 from ..loads.teeth import mesh
+from .contact_verbs import restitution_of
 from .periodic_spline import periodic_spline
 from .registry import Elements
 
@@ -22,7 +23,7 @@ class CouplingVerbs(Elements):
     """Couplings of measures, one constraint each."""
 
     def gear(self, name: str, first: Joint | str, second: Joint | str, *, ratio: float, pressure_angle: float | None = None,
-             helix_angle: float = 0.0, radius: float | None = None) -> Coupling:
+             helix_angle: float = 0.0, radius: float | None = None, backlash: float = 0.0, restitution: float = 0.0) -> Coupling:
         """Couple two hinges by gears: ``second.angle = ratio * first.angle``, as their joints measure them.
 
         Parameters
@@ -42,6 +43,10 @@ class CouplingVerbs(Elements):
         radius : float, optional
             For axes that intersect, of bevel gears: pitch radius of the second wheel, in the middle of its teeth, in m. For
             parallel axes the radii follow from their distance and the ratio.
+        backlash : float
+            Free play between the flanks in rad of the second angle, which starts in its middle; 0: none.
+        restitution : float
+            With `backlash`: coefficient of restitution of flanks that meet, 0 to 1.
 
         Returns
         -------
@@ -65,7 +70,9 @@ class CouplingVerbs(Elements):
         that the gear couples bear the separating force alone, also where a wheel has other bearings.
         """
         return self._linear(name, "gear", (first, ("angle",)), (second, ("angle",)), ratio,
-                            self._teeth(name, pressure_angle, helix_angle, radius))
+                            self._teeth(name, pressure_angle, helix_angle, radius),
+                            backlash=checks.number(f"backlash of {name!r}", backlash, least=0),
+                            restitution=restitution_of(name, restitution))
 
     def _teeth(self, name: Any, pressure_angle: Any, helix_angle: Any, radius: Any) -> Teeth | None:
         """Geometry of the teeth of a gear; None: without tooth forces."""
@@ -116,7 +123,8 @@ class CouplingVerbs(Elements):
         """
         return self._linear(name, "rack_pinion", (pinion, ("angle",)), (rack, ("displacement",)), ratio)
 
-    def _linear(self, name: Any, kind: str, first: Any, second: Any, ratio: Any, teeth: Teeth | None = None) -> Coupling:
+    def _linear(self, name: Any, kind: str, first: Any, second: Any, ratio: Any, teeth: Teeth | None = None,
+                **play: float) -> Coupling:
         name = self._new_name(name, kind)
         joints = [self._joint(f"{side} of {name!r}", *given) for side, given in (("first", first), ("second", second))]
         if joints[0] is joints[1]:
@@ -127,7 +135,7 @@ class CouplingVerbs(Elements):
             raise WrongValue(f"ratio of {name!r} must not be 0", "out-of-range")
         return self._couple(name, kind, tuple(
             f"{joint.name}.{joint.coordinate or given[1][0]}" for joint, given in zip(joints, (first, second), strict=True)),
-            ratio=ratio, teeth=teeth)
+            ratio=ratio, teeth=teeth, **play)
 
     def _couple(self, name: str, kind: str, of: tuple[str, ...], **how: Any) -> Coupling:
         """Add a coupling of measures; its effort is a torque if all are angles, rates of angles or cosines of a rotation."""

@@ -222,4 +222,5 @@ class Latch(Fixed):
 
 def switching(elements: Any) -> list[Any]:
     """Elements whose constraints are not all active at all times."""
-    return [element for element in elements if isinstance(element, Contact | Stop) or getattr(element, "switched", None)]
+    return [element for element in elements
+            if isinstance(element, Contact | Stop) or getattr(element, "switched", None) or getattr(element, "backlash", 0.0)]

@@ -292,6 +292,8 @@ class Coupling(Fixed):
         Function that is constrained to zero, of couplings other than gears, racks and cams.
     teeth : Teeth or None
         Geometry of the teeth of a gear whose tooth forces act on its bodies.
+    backlash, restitution : float
+        Free play of a gear, in rad of its second angle, and the coefficient of restitution of its flanks.
 
     Notes
     -----
@@ -305,8 +307,9 @@ class Coupling(Fixed):
     """
 
     def __init__(self, name: str, kind: str, of: tuple[str, ...], effort: str, *, ratio: float | None = None,
-                 law: Law | None = None, teeth: Teeth | None = None) -> None:
+                 law: Law | None = None, teeth: Teeth | None = None, backlash: float = 0.0, restitution: float = 0.0) -> None:
         self.name, self.kind, self.of, self.ratio, self.law, self.teeth = name, kind, of, ratio, law, teeth
+        self.backlash, self.restitution = backlash, restitution
         self._along_value = effort      # "torque" or "force"
 
     @property
@@ -343,7 +346,16 @@ class Coupling(Fixed):
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
-        return {} if self.ratio is None else {"ratio": self.ratio}
+        play = {"backlash": self.backlash, "restitution": self.restitution} if self.backlash else {}
+        return {} if self.ratio is None else {"ratio": self.ratio, **play}
+
+    unswitched = None       # a gear with backlash is open as a start is assembled
+
+    def switches(self, numbers: Numbers) -> Iterator[Switch]:
+        """Both flanks of the teeth."""
+        play, restitution = numbers(self, "backlash", self.backlash), numbers(self, "restitution", self.restitution)
+        for word, sign in (("lower", 1), ("upper", -1)):
+            yield Switch(f"{self.name} {word}", "one-sided", of=self.name, sign=sign, value=-sign * play / 2, restitution=restitution)
 
     def __repr__(self) -> str:
         return f"<{self.kind} {self.name}: {', '.join(self.of)}>"

@@ -13,7 +13,8 @@ class Switch(NamedTuple):
 
     name: str
     kind: str                   # "one-sided", "friction" or "two-sided"; "absent": rows that are never active
-    along: str = ""             # measure of whose value they are a row; "": they are rows of the joint
+    along: str = ""             # measure of whose value they are a row
+    of: str = ""                # coupling whose relation they are; "": they are rows of the joint
     component: int = 0
     rows: int = 1
     sign: int = 1

@@ -22,11 +22,13 @@ def _add(tables: Any, element: Any) -> None:
     for each in element.switches(tables.numbers):
         if each.along and relation < 0:
             relation = _add_row(tables, element, tables._quantity_of(each.along), joint)
-        owner, number = ("relation", relation) if each.along else ("joint", joint)
+        if each.of:
+            relation = tables.relation_names.index(each.of)
+        owner, number = ("relation", relation) if each.along or each.of else ("joint", joint)
         group = Group(
             each.name, owner, number, each.component, each.rows, each.kind, each.sign, each.is_active,
             first + each.normal if each.normal else 0, each.loads, joint, each.is_largest,
-            float("ang" in each.along.rpartition(".")[2]), each.value, each.restitution,
+            float("ang" in each.along.rpartition(".")[2] or bool(each.of)), each.value, each.restitution,
             each.friction)
         if bounds and each.kind == "one-sided":
             other = 1 + first + each.other if each.other else 0

@@ -193,8 +193,9 @@ def _by_row(joint: type[Joint]) -> Callable[..., None]:
 
 
 def _gear(m: Any, name: str, *, first: Any, second: Any, ratio: Any, pressure_angle: Any = None, helix_angle: Any = 0.0,
-          radius: Any = None) -> None:
-    m.gear(name, first, second, ratio=ratio, pressure_angle=pressure_angle, helix_angle=helix_angle, radius=radius)
+          radius: Any = None, backlash: Any = 0.0, restitution: Any = 0.0) -> None:
+    m.gear(name, first, second, ratio=ratio, pressure_angle=pressure_angle, helix_angle=helix_angle, radius=radius,
+           backlash=backlash, restitution=restitution)
 
 
 def _rack_pinion(m: Any, name: str, *, first: Any, second: Any, ratio: Any) -> None:

@@ -123,7 +123,8 @@ def _latch(latch: Any, drawing: Drawing) -> dict[str, Any]:
 def _linear(coupling: Coupling, drawing: Drawing) -> dict[str, Any]:
     first, second = (measure.rpartition(".")[0] for measure in coupling.of)
     more = coupling.teeth._asdict() if coupling.teeth else {}
-    return {"first": first, "second": second, "ratio": coupling.ratio, **more}
+    play = {"backlash": coupling.backlash, "restitution": coupling.restitution} if coupling.backlash else {}
+    return {"first": first, "second": second, "ratio": coupling.ratio, **more, **play}
 
 
 def _coupling(coupling: Any, drawing: Drawing) -> dict[str, Any]:
