@@ -33,10 +33,11 @@ static double find_total_bound(const zd_phase_system *self, int index, const dou
 
 /* Margin of a one-sided group: beyond the gap of an open one, and of an idle one beyond rounding, is the body; beside its range nothing is.
  * Shapes without another side may be passed from behind. */
-static double find_normal_margin(const zd_phase_system *self, int index, const double *lambda)
+static double find_normal_margin(const zd_phase_system *self, int index, const double *v, const double *lambda)
 {
     const zd_group *group = self->full->group + index;
-    const double within = zd_phase_within(self, index), gap = zd_phase_gap(self, index);
+    const double within = zd_phase_within(self, index);
+    const double gap = group->kind == ZD_ONE_WAY ? group->sign * (zd_phase_slip(self, index, v) - group->value) : zd_phase_gap(self, index);
     switch (self->state[index]) {
     case ZD_CLOSED: return fmin(within, -group->sign * lambda[group->first]);
     case ZD_IDLE: return fmin(within, gap + ZD_TOUCHING * (group->scale > 0 ? group->scale : self->full->length));
@@ -49,14 +50,15 @@ int zd_phase_margin(zd_phase_system *self, const zd_point *point, int index, dou
 {
     const zd_group *group = self->full->group + index;
     const signed char state = self->state[index];
-    const int is_normal = group->kind == ZD_ONE_SIDED;
+    const int is_normal = zd_is_normal(group->kind);
     *margin = 1;
     if (group->kind == ZD_TWO_SIDED || (!is_normal && (state == ZD_OPEN || state == ZD_IDLE))) return ZD_DONE;
     const double *lambda = state == ZD_CLOSED ? zd_point_multipliers(point) : NULL;
     int status = ZD_DONE;
     if (is_normal) {
-        if (state != ZD_CLOSED || group->range) status = zd_phase_evaluate(self, ZD_PHI, t, p, v);
-        *margin = find_normal_margin(self, index, lambda);
+        if (state != ZD_CLOSED || group->range)
+            status = zd_phase_evaluate(self, group->kind == ZD_ONE_WAY ? ZD_C | ZD_PHI_T : ZD_PHI, t, p, v);
+        *margin = find_normal_margin(self, index, v, lambda);
     } else if (state == ZD_CLOSED) *margin = find_total_bound(self, index, lambda) - fabs(lambda[group->first]);
     else {
         status = zd_phase_evaluate(self, ZD_C | ZD_PHI_T, t, p, v);

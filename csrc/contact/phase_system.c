@@ -58,7 +58,7 @@ double zd_phase_slip(const zd_phase_system *self, int index, const double *v)
 double zd_phase_gap(const zd_phase_system *self, int index)
 {
     const zd_group *group = self->full->group + index;
-    return group->sign * (zd_phase_Phi(self)[group->first] - group->value);
+    return group->kind == ZD_ONE_WAY ? 0 : group->sign * (zd_phase_Phi(self)[group->first] - group->value);
 }
 
 double zd_phase_within(const zd_phase_system *self, int index)
@@ -99,7 +99,7 @@ static void copy_rows(const zd_phase_system *self, int want, const zd_terms *fro
     for (int k = 0; k < m; k++) {
         const int row = self->row[k];
         if (want & ZD_PHI && k < mh) out->Phi[k] = from->Phi[row] - self->value[k];
-        if (want & ZD_PHI_T) out->Phi_t[k] = from->Phi_t[row];
+        if (want & ZD_PHI_T) out->Phi_t[k] = from->Phi_t[row] - (k < mh ? 0 : self->value[k]);
         if (want & ZD_XI) out->xi[k] = from->xi[row];
         if (!(want & ZD_C)) continue;
         const zd_row_of_C stored = row_in(self, from->C, row);
@@ -248,6 +248,8 @@ void zd_phase_pass_functions(zd_phase_system *self)
     system->scratch += self->size_of_C + full->mh + 2 * zd_constraints(full);
     system->provides &= ~(ZD_COMPLEMENT | ZD_GAMMA | (system->mh ? 0 : ZD_PHI) | (m ? 0 : ZD_C | ZD_XI | ZD_PHI_T));
     if (self->slidings) system->provides |= ZD_FORCE;
+    for (int k = system->mh; k < m; k++)
+        if (self->value[k] != 0) system->provides |= ZD_PHI_T;
     if (full->provides & ZD_POTENTIAL) system->provides |= ZD_POWER;
     self->operations = (zd_operations){.times_A = times_A};
     system->operations = zd_brings_times_A(full) ? &self->operations : NULL;

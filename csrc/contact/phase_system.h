@@ -12,6 +12,8 @@ static const double ZD_TOUCHING = 1e-10;     /* gap of contacts that take part i
 
 enum { ZD_MAX_LOADS = 3 };      /* number of rows whose multipliers may be a load */
 
+/* True of groups whose force has one sign. */
+static inline int zd_is_normal(enum zd_group_kind kind) { return kind == ZD_ONE_SIDED || kind == ZD_ONE_WAY; }
 static inline int zd_slides(signed char state) { return state == ZD_SLIDES_FORWARD || state == ZD_SLIDES_BACKWARD; }
 static inline double zd_slip_sign(signed char state) { return state == ZD_SLIDES_FORWARD ? 1 : -1; }
 

@@ -21,7 +21,7 @@ static signed char find_end(const zd_contacts *it, int g)
     const zd_phases *phases = it->phases;
     const int event = watch->events->count - phases->full->groups + g;
     if (!watch->acts[event] || phases->state[g] != ZD_CLOSED) return ZD_OPEN;
-    if (phases->full->group[g].kind == ZD_ONE_SIDED) return ZD_SLIDES_FORWARD;
+    if (zd_is_normal(phases->full->group[g].kind)) return ZD_SLIDES_FORWARD;
     return zd_point_multipliers(it->run->motion.point)[phases->full->group[g].first] > 0 ? ZD_SLIDES_FORWARD : ZD_SLIDES_BACKWARD;
 }
 
@@ -78,7 +78,7 @@ static int find_normals(zd_contacts *it, int is_start)
     const zd_system *full = phases->full;
     int status = ZD_DONE;
     for (int g = 0; g < full->groups && !status; g++) {
-        if (full->group[g].kind != ZD_ONE_SIDED) continue;
+        if (!zd_is_normal(full->group[g].kind)) continue;
         const double gap = zd_phase_gap(phases->present->of, g);
         const int place = find_place(it, g, is_start);
         if (place < 0) return refuse_start(it, full->group + g, gap);
@@ -134,19 +134,28 @@ int zd_contacts_allocate(zd_contacts *it)
     return ZD_DONE;
 }
 
-int zd_contacts_find_answers(zd_contacts *it)
+int zd_contacts_find_rows(zd_contacts *it)
 {
-    zd_motion *motion = &it->run->motion;
     zd_phase_system *of = it->phases->present->of;
-    const int n = it->count, nv = motion->system.nv;
-    int status = zd_phase_evaluate(of, ZD_C | ZD_PHI_T, it->phases->at.t, it->phases->at.p, it->phases->at.v);
-    if (!status) status = zd_motion_factor(motion);
-    for (int k = 0; k < n && !status; k++) {
+    const int nv = it->phases->full->nv;
+    const int status = zd_phase_evaluate(of, ZD_C | ZD_PHI_T, it->phases->at.t, it->phases->at.p, it->phases->at.v);
+    for (int k = 0; k < it->count && !status; k++) {
         const zd_row_of_C row = zd_phase_row(of, zd_candidate_group(it, k)->first);
         double *g = it->g + (size_t)k * nv;
         zd_row_expand(&row, nv, g);
         for (int i = 0; i < nv; i++) g[i] *= it->sign[k];
-        zd_motion_solve(motion, g, it->zero, it->x + (size_t)k * nv, motion->point->lambda);
+    }
+    return status;
+}
+
+int zd_contacts_find_answers(zd_contacts *it)
+{
+    zd_motion *motion = &it->run->motion;
+    const int n = it->count, nv = motion->system.nv;
+    int status = zd_contacts_find_rows(it);
+    if (!status) status = zd_motion_factor(motion);
+    for (int k = 0; k < n && !status; k++) {
+        zd_motion_solve(motion, it->g + (size_t)k * nv, it->zero, it->x + (size_t)k * nv, motion->point->lambda);
         motion->statistics.solves++;
     }
     for (int j = 0; j < n && !status; j++)
@@ -158,8 +167,11 @@ void zd_contacts_find_velocities(zd_contacts *it)
 {
     const int nv = it->phases->full->nv;
     const double *Phi_t = zd_phase_Phi_t(it->phases->present->of);
-    for (int k = 0; k < it->count; k++)
-        it->w[k] = zd_dot(nv, it->g + (size_t)k * nv, it->phases->at.v) + it->sign[k] * Phi_t[zd_candidate_group(it, k)->first];
+    for (int k = 0; k < it->count; k++) {
+        const zd_group *group = zd_candidate_group(it, k);
+        const double rate = Phi_t[group->first] - (group->kind == ZD_ONE_WAY ? group->value : 0);
+        it->w[k] = zd_dot(nv, it->g + (size_t)k * nv, it->phases->at.v) + it->sign[k] * rate;
+    }
 }
 
 void zd_contacts_apply(zd_contacts *it, const double *z)

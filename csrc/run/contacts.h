@@ -29,6 +29,8 @@ int zd_contacts_find(zd_contacts *self, int is_start);
 /* Bounds of friction by loads, as they are now. */
 int zd_contacts_find_loads(zd_contacts *self);
 int zd_contacts_allocate(zd_contacts *self);
+/* g at the state phases->at. */
+int zd_contacts_find_rows(zd_contacts *self);
 /* g, x and W in the phase without the candidates, which is the present one. */
 int zd_contacts_find_answers(zd_contacts *self);
 void zd_contacts_find_velocities(zd_contacts *self);

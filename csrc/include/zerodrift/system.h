@@ -119,16 +119,17 @@ typedef struct zd_reading {
 enum zd_group_kind {
     ZD_TWO_SIDED,           /* rows of a joint that is released and joined, all holonomic or all nonholonomic */
     ZD_ONE_SIDED,           /* one holonomic row: g >= 0, N >= 0, and one of them zero; within a range, where it has one */
-    ZD_FRICTION             /* one row, a slip velocity C v + Phi_t: zero, or a force against it. Its Phi is not read. */
+    ZD_FRICTION,            /* one row, a slip velocity C v + Phi_t: zero, or a force against it. Its Phi is not read. */
+    ZD_ONE_WAY              /* one row: as one-sided, with the rate C v + Phi_t in the place of Phi, which is not read; no restitution */
 };
 
 typedef struct zd_group {
     const char *name;
     int first, rows;        /* first row of C, and number of rows */
     enum zd_group_kind kind;
-    int sign;               /* ZD_ONE_SIDED: 1 or -1 */
+    int sign;               /* ZD_ONE_SIDED, ZD_ONE_WAY: 1 or -1 */
     double scale;           /* ZD_ONE_SIDED, ZD_FRICTION: unit of Phi, as 1 rad of an angle; 0: the characteristic length */
-    double value;           /* ZD_ONE_SIDED: Phi at which it is closed; two groups may share a row, as the ends of a stop do */
+    double value;           /* ZD_ONE_SIDED, ZD_ONE_WAY: Phi, or rate, at which it is closed; two groups may share a row, as the ends of a stop do */
     int is_active;          /* ZD_TWO_SIDED: 1 if it is joined at the start */
     int normal;             /* ZD_FRICTION: 1 + index of the ZD_ONE_SIDED group whose force bounds the friction; 0: another bound */
     int load, loads;        /* ZD_FRICTION without a normal: first of the rows whose multipliers are the load that bounds it, and their

@@ -263,8 +263,10 @@ static int check_switched_group(const zd_system *system, int i, text message)
                       m, group->rows, group->first);
     if (group->first < system->mh && group->first + group->rows > system->mh)
         return refuse(message, "groups: %s must have rows of one kind, holonomic or not", group->name);
-    if (group->kind == ZD_ONE_SIDED && (group->first >= system->mh || (group->sign != 1 && group->sign != -1)))
-        return refuse(message, "groups: %s must have a holonomic row, and a sign of 1 or -1", group->name);
+    if (group->kind == ZD_ONE_SIDED && group->first >= system->mh)
+        return refuse(message, "groups: %s must have a holonomic row", group->name);
+    if ((group->kind == ZD_ONE_SIDED || group->kind == ZD_ONE_WAY) && group->sign != 1 && group->sign != -1)
+        return refuse(message, "groups: %s must have a sign of 1 or -1", group->name);
     if (!(group->restitution >= 0 && group->restitution <= 1) || !isfinite(group->value))
         return refuse(message, "groups: the restitution of %s must be 0 to 1, and its value finite", group->name);
     if (group->range < 0 || group->range > system->mh || (group->range && !(group->lower < group->upper)))

@@ -85,22 +85,22 @@ class ContactVerbs(Elements):
 
     def stop(self, name: str, measure: Measure | str, *, lower: float | None = None, upper: float | None = None,
              restitution: float = 0.0) -> Stop:
-        """Keep a measure of positions within limits.
+        """Keep a measure within limits: an end stop, a slack rope; of a rate, a one-way clutch or a limit of a speed.
 
         Parameters
         ----------
         name : str
         measure : Measure or name
-            Scalar measure of positions: an angle, a displacement, a length, a coordinate of a point.
+            Scalar measure of positions or velocities: an angle, a displacement, a length, a coordinate of a point, a speed.
         lower, upper : float, optional
             Limits, in the unit of the measure; at least one.
         restitution : float
-            Coefficient of restitution, 0 to 1.
+            Coefficient of restitution, 0 to 1; of a rate 0.
 
         Returns
         -------
         Stop
-            Its `force`, or its `torque` if the measure is an angle, acts on the measure and is positive upward.
+            Its `force`, or its `torque` if the measure is an angle or its rate, acts on the measure and is positive upward.
 
         Raises
         ------
@@ -119,8 +119,8 @@ class ContactVerbs(Elements):
         name = self._new_name(name, "stop")
         of = name_of(measure, f"measure of {name!r}")
         read = checked_reading(f"measure of stop {name!r}", of, 0.0, self._elements)
-        if read.is_rate:
-            raise WrongValue(f"measure of stop {name!r} must be one of positions, and {of!r} is a rate", "wrong-measure")
+        if read.is_rate and restitution:
+            raise WrongValue(f"restitution of stop {name!r} must be 0, as {of!r} is a rate", "conflicting-arguments")
         lower, upper = (None if value is None else checks.number(f"{word} of {name!r}", value)
                         for word, value in (("lower", lower), ("upper", upper)))
         if lower is None and upper is None:
@@ -128,8 +128,9 @@ class ContactVerbs(Elements):
         if lower is not None and upper is not None and not lower < upper:
             raise WrongValue(f"lower of {name!r} must be less than upper, and {lower:g} is not less than {upper:g}",
                              "out-of-range")
-        effort = "torque" if "ang" in of.rpartition(".")[2] else "force"
-        return self._add(Stop(name, of, lower, upper, restitution_of(name, restitution), effort))
+        quantity, = read.quantities
+        effort = "torque" if "ang" in quantity.rpartition(".")[2] else "force"
+        return self._add(Stop(name, of, lower, upper, restitution_of(name, restitution), effort, quantity, read.is_rate))
 
 
     def latch(self, name: str, joint: Joint | str, *, when: MeasureLike | Expression | Event | None = None,

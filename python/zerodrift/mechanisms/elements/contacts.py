@@ -170,8 +170,10 @@ class Stop(Fixed):
     force = scalar("force", "Force in N on its measure, a length, positive upward.")
     torque = scalar("torque", "Torque in N m on its measure, an angle, positive upward.")
 
-    def __init__(self, name: str, of: str, lower: float | None, upper: float | None, restitution: float, effort: str) -> None:
+    def __init__(self, name: str, of: str, lower: float | None, upper: float | None, restitution: float, effort: str,
+                 quantity: str, is_rate: bool) -> None:
         self.name, self.of, self.lower, self.upper, self.restitution, self.effort = name, of, lower, upper, restitution, effort
+        self.quantity, self.is_rate = quantity, is_rate     # of a rate: what it is the rate of
 
     @property
     def limits(self) -> dict[str, float]:
@@ -187,8 +189,8 @@ class Stop(Fixed):
         restitution = numbers(self, "restitution", self.restitution)
         for word, value in self.limits.items():
             name = self.name if len(self.limits) == 1 else f"{self.name} {word}"
-            yield Switch(name, "one-sided", along=self.of, sign=1 if word == "lower" else -1, value=numbers(self, word, value),
-                         restitution=restitution)
+            yield Switch(name, "one-way" if self.is_rate else "one-sided", along=self.quantity,
+                         sign=1 if word == "lower" else -1, value=numbers(self, word, value), restitution=restitution)
 
     @property
     def measure(self) -> Measure:

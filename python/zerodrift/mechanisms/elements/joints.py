@@ -355,7 +355,8 @@ class Coupling(Fixed):
         """Both flanks of the teeth."""
         play, restitution = numbers(self, "backlash", self.backlash), numbers(self, "restitution", self.restitution)
         for word, sign in (("lower", 1), ("upper", -1)):
-            yield Switch(f"{self.name} {word}", "one-sided", of=self.name, sign=sign, value=-sign * play / 2, restitution=restitution)
+            yield Switch(f"{self.name} {word}", "one-sided", of=self.name, sign=sign, value=-sign * play / 2,
+                         restitution=restitution)
 
     def __repr__(self) -> str:
         return f"<{self.kind} {self.name}: {', '.join(self.of)}>"

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-WORDS = {"one-sided": ("open", "closed", "", "", "closed", "open"),
+WORDS = {**dict.fromkeys(("one-sided", "one-way"), ("open", "closed", "", "", "closed", "open")),
          "friction": ("", "sticking", "sliding", "sliding", "sticking"),
          "two-sided": ("released", "joined", "", "", "joined"), "absent": ("", "", "", "", "")}
 IMPACTS = np.dtype([("t", float), ("name", "U64"), ("impulse", float), ("energy_lost", float)])

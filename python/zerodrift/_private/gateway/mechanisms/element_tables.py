@@ -27,7 +27,7 @@ MAX_READS = lib.ZD_MAX_READS    # components that a formula reads, at most
 FORCE_KINDS = {"spring": lib.ZD_FORCE_SPRING, "constant": lib.ZD_FORCE_CONSTANT, "law": lib.ZD_FORCE_LAW,
                "separation": lib.ZD_FORCE_SEPARATION}
 GROUP_KINDS = {"two-sided": lib.ZD_TWO_SIDED, "absent": lib.ZD_TWO_SIDED,
-               "one-sided": lib.ZD_ONE_SIDED, "friction": lib.ZD_FRICTION}
+               "one-sided": lib.ZD_ONE_SIDED, "friction": lib.ZD_FRICTION, "one-way": lib.ZD_ONE_WAY}
 OUTPUT_KINDS = {
     "values": lib.ZD_VALUES, "rates": lib.ZD_RATES, "accelerations": lib.ZD_ACCELERATIONS, "joint force": lib.ZD_JOINT_FORCE,
     "joint torque": lib.ZD_JOINT_TORQUE, "joint tension": lib.ZD_JOINT_TENSION, "force value": lib.ZD_FORCE_VALUE,
