@@ -28,7 +28,8 @@ static void list_rows(zd_phase_system *self)
     for (int row = 0; row < zd_constraints(full); row++) self->row_here[row] = -1;
     for (int holonomic = 1; holonomic >= 0; holonomic--) {
         for (int row = 0; row < zd_constraints(full); row++) {
-            const int g = find_group(self, row), is_rate = g >= 0 && (full->group[g].kind == ZD_FRICTION || full->group[g].kind == ZD_ONE_WAY);
+            const int g = find_group(self, row);
+            const int is_rate = g >= 0 && (full->group[g].kind == ZD_FRICTION || full->group[g].kind == ZD_ONE_WAY);
             if (g < -1 || (row < full->mh && !is_rate) != holonomic) continue;
             self->value[m] = g >= 0 ? full->group[g].value : 0;
             self->keeps_value[m] = g >= 0 && full->group[g].kind == ZD_TWO_SIDED;

@@ -111,12 +111,37 @@ static double vertex(const zd_zeros *self, double *f)
     return self->m - slope / (2 * curvature);
 }
 
-/* The next point of the minimization, by the parabola at a distance from m; false if no value beyond rounding is expected below zero. */
+/* Lowers *f to the value at which lines of slopes p through (a, fa), and q through (b, fb), meet between a and b, and *t to its time. */
+static void meet(double a, double fa, double p, double b, double fb, double q, double *t, double *f)
+{
+    const double x = isinf(p) ? a : isinf(q) ? b : fmin(b, fmax(a, (fb - fa + p * a - q * b) / (p - q)));
+    const double value = isinf(p) ? fb + q * (x - b) : fa + p * (x - a);
+    if (value < *f) *f = value, *t = x;
+}
+
+/* Least value that a convex function with these points may have, and its time: that of a kink, as of a distance. */
+static double kink(const zd_zeros *self, double *f)
+{
+    const double p = (self->fm - self->fa) / (self->m - self->a), q = (self->fb - self->fm) / (self->b - self->m);
+    double t = self->m;
+    *f = self->fm;
+    if (!(self->before < q && p < self->after)) return t;
+    meet(self->a, self->fa, self->before, self->m, self->fm, q, &t, f);
+    meet(self->m, self->fm, p, self->b, self->fb, self->after, &t, f);
+    return t;
+}
+
+/* The next point of the minimization, by the parabola or a kink at a distance from m; false if no value beyond rounding is expected below
+ * zero. */
 static int continues(zd_zeros *self)
 {
-    double f, t = vertex(self, &f);
+    double f, least_f, t = vertex(self, &f), t_kink = kink(self, &least_f);
     const double width = self->b - self->a, middle = self->a + width / 2, least = SHIFT * width;
-    if (self->tries++ == MAX_TRIES || (self->fm > 0 && f > (1 - DEPTH) * self->fm)) return 0;
+    if (self->tries++ == MAX_TRIES) return 0;
+    if (self->fm > 0 && f > (1 - DEPTH) * self->fm) {
+        if (!(least_f < 0)) return 0;
+        f = least_f, t = fmin(self->b - least, fmax(self->a + least, t_kink));
+    }
     if (self->fm <= self->rounding && f >= -self->rounding) return 0;
     if (fabs(t - self->m) < least) t = self->m + copysign(least, middle - self->m);
     self->next = t;
@@ -128,6 +153,8 @@ static void minimize_from(zd_zeros *self, int k)
     self->sign = copysign(1, self->g[k]);
     self->a = self->t[k - 1], self->m = self->t[k], self->b = self->t[k + 1];
     self->fa = fabs(self->g[k - 1]), self->fm = fabs(self->g[k]), self->fb = fabs(self->g[k + 1]);
+    self->before = k > 1 ? (self->fa - self->sign * self->g[k - 2]) / (self->a - self->t[k - 2]) : -INFINITY;
+    self->after = k + 2 < self->count ? (self->sign * self->g[k + 2] - self->fb) / (self->t[k + 2] - self->b) : INFINITY;
     self->rounding = 0;
 }
 
@@ -156,12 +183,12 @@ static void narrow(zd_zeros *self, double t, double f)
 {
     const int is_before = t < self->m;
     if (f >= self->fm) {
-        if (is_before) self->a = t, self->fa = f;
-        else self->b = t, self->fb = f;
+        if (is_before) self->before = (f - self->fa) / (t - self->a), self->a = t, self->fa = f;
+        else self->after = (self->fb - f) / (self->b - t), self->b = t, self->fb = f;
         return;
     }
-    if (is_before) self->b = self->m, self->fb = self->fm;
-    else self->a = self->m, self->fa = self->fm;
+    if (is_before) self->after = (self->fb - self->fm) / (self->b - self->m), self->b = self->m, self->fb = self->fm;
+    else self->before = (self->fm - self->fa) / (self->m - self->a), self->a = self->m, self->fa = self->fm;
     self->m = t, self->fm = f;
 }
 

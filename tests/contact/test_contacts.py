@@ -268,7 +268,8 @@ def test_studies_that_know_no_phases_refuse_by_name():
 
 def test_arguments_are_refused_by_name():
     m, slide = slider()
-    wrong = [(lambda: m.stop("a", slide.displacement), "lower="), (lambda: m.stop("a", slide.speed, upper=1.0, restitution=0.5), "rate"),
+    wrong = [(lambda: m.stop("a", slide.displacement), "lower="),
+             (lambda: m.stop("a", slide.speed, upper=1.0, restitution=0.5), "rate"),
              (lambda: m.stop("a", slide.displacement, lower=1.0, upper=0.0), "less than upper"),
              (lambda: m.contact("c", m["block"], "floor"), "one of a body"),
              (lambda: m.contact("c", m["block"], m.ground.line((0, 0), (1, 0)), restitution=1.2), "at most 1"),

@@ -138,7 +138,20 @@ def test_shapes_are_saved_and_drawn(tmp_path):
     assert kinds.count("surface") == 3
 
 
+@pytest.mark.parametrize("far", [1.0, 100.0])
+def test_small_shapes_on_a_long_way_are_met(far):
+    """Steps of free flight are longer than the shape; its gap has a kink where it is passed."""
+    m = zd.Mechanism("flight")
+    ball = disc(m, (-far, 0))
+    m.contact("peg", ball, m.ground.circle((0, 0), 0.1), radius=BALL, restitution=1.0)
+    m.start({ball.velocity.x: 10.0})
+    sol = zd.simulate(m, far / 4)
+    assert sol.impacts["t"] == pytest.approx([(far - 0.2) / 10], rel=1e-12)
+    assert sol["disc.velocity.x"][-1] == pytest.approx(-10.0)
+
+
 @pytest.mark.parametrize(("change", "words"), [
+    (lambda m: m.contact("c", m["disc"], m.ground.circle((0, 5), 0.0)), "the circle is a point"),
     (lambda m: m.contact("c", m["disc"], m.ground.circle((0, 5), 0.05, outside=False), radius=BALL), "less than that of the"),
     (lambda m: m.ground.arc((0, 0), (1, 0), (2, 0)), "two directions from its centre"),
     (lambda m: m.ground.segment((1, 0), (1, 0)), "two places"),

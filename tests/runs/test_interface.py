@@ -203,8 +203,8 @@ def in_structure(**changed):
     ({"inputs": 1, "input": inputs(0.0, name="")}, "input 0 must have a name"),
     ({"inputs": 1, "input": inputs(0.0, kind=2)}, "torque must be an effort or a speed"),
     ({"inputs": 1, "input": inputs(np.nan)}, "the initial value of torque must be finite"),
-    ({"groups": 65, "group": groups((0, 1))}, "groups: there must be 0 to 64, .*, not 65"),
-    ({"groups": 1}, "groups: there must be 0 to 64, .*, not 1"),
+    ({"groups": 1025, "group": groups((0, 1))}, "groups: there must be 0 to 1024, .*, not 1025"),
+    ({"groups": 1}, "groups: there must be 0 to 1024, .*, not 1"),
     ({"groups": 1, "group": groups((0, 1), name="")}, "group 0 must have a name"),
     ({"groups": 1, "group": groups((2, 3))}, "lock must have rows among the 4, .*, not 3 rows from row 2 on"),
     ({"groups": 1, "group": groups((2, 2))}, "lock must have rows of one kind, holonomic or not"),
@@ -246,7 +246,7 @@ def test_a_run_of_it_is_refused():
 def test_a_library_that_describes_what_does_not_fit_is_refused(tmp_path):
     text = PENDULUM.read_text().replace(".evaluate = pendulum,\n    },", ".evaluate = pendulum, .groups = 1,\n    },")
     library = compile_text(text, tmp_path / "malformed.so")
-    with refused("compiled-function", r"zd_kind_pendulum of .*malformed\.so: groups: there must be 0 to 64, .*, not 1"):
+    with refused("compiled-function", r"zd_kind_pendulum of .*malformed\.so: groups: there must be 0 to 1024, .*, not 1"):
         zd.native(library, symbol="pendulum", parameters={})
 
 

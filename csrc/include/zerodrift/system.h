@@ -129,7 +129,7 @@ typedef struct zd_group {
     enum zd_group_kind kind;
     int sign;               /* ZD_ONE_SIDED, ZD_ONE_WAY: 1 or -1 */
     double scale;           /* ZD_ONE_SIDED, ZD_FRICTION: unit of Phi, as 1 rad of an angle; 0: the characteristic length */
-    double value;           /* ZD_ONE_SIDED, ZD_ONE_WAY: Phi, or rate, at which it is closed; two groups may share a row, as the ends of a stop do */
+    double value;           /* ZD_ONE_SIDED, ZD_ONE_WAY: Phi or rate at which it is closed; groups may share a row, as the ends of a stop */
     int is_active;          /* ZD_TWO_SIDED: 1 if it is joined at the start */
     int normal;             /* ZD_FRICTION: 1 + index of the ZD_ONE_SIDED group whose force bounds the friction; 0: another bound */
     int load, loads;        /* ZD_FRICTION without a normal: first of the rows whose multipliers are the load that bounds it, and their

@@ -283,11 +283,13 @@ static int check_switched_group(const zd_system *system, int i, text message)
     return ZD_DONE;
 }
 
+enum { MAX_GROUPS = 1024 };      /* a change of phase takes a time in proportion to their number */
+
 static int check_switched_groups(const zd_system *system, text message)
 {
     int status = ZD_DONE;
-    if (system->groups < 0 || system->groups > 64 || (system->groups && !system->group))
-        return refuse(message, "groups: there must be 0 to 64, each with its name and rows, not %d", system->groups);
+    if (system->groups < 0 || system->groups > MAX_GROUPS || (system->groups && !system->group))
+        return refuse(message, "groups: there must be 0 to %d, each with its name and rows, not %d", MAX_GROUPS, system->groups);
     for (int i = 0; i < system->groups && !status; i++) status = check_switched_group(system, i, message);
     return status;
 }

@@ -74,6 +74,8 @@ class ContactVerbs(Elements):
         if isinstance(shape, Circle) and not shape.outside and not radius < shape.radius:
             raise WrongValue(f"radius of {name!r} must be less than that of the hole, and {radius:g} is not less than "
                              f"{shape.radius:g}", "out-of-range")
+        if isinstance(shape, Circle) and not radius and not shape.radius:
+            raise WrongValue(f"radius of {name!r} must be more than 0, as the circle is a point", "out-of-range")
         given = self._named("first", first)
         point = given.point((0.0, 0.0)) if isinstance(given, Body) and given.turns else self._point("first", given)
         one, other = self._different(name, shape.body.point(shape.start), point)

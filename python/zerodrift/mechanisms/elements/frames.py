@@ -205,7 +205,7 @@ class Shapes:
         ValueError
             For a radius below zero.
         """
-        radius = checks.number("radius of a circle", radius, **({"least": 0} if outside else {"above": 0}))
+        radius = checks.number("radius of a circle", radius, least=0)
         return Circle(self, self.pose.local(place("center", center, 2)), radius, bool(outside), np.array([1.0, 0.0]))
 
     def arc(self, center: Any, start: Any, end: Any, *, outside: bool = True) -> Circle:
