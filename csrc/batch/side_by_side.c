@@ -18,8 +18,8 @@ int zd_lanes_serve_settings(const zd_system *system, const zd_settings *settings
 {
     const int meets_breaks = (system->breaks || system->switches) && settings->steps == ZD_ADAPTIVE_STEPS;
     return !system->groups && !system->quaternions && !meets_breaks && !settings->outputs && !settings->given_jacobian
-        && !(settings->max_move > 0) && system->mh + system->mn <= system->nv && zd_takes_closed_form(settings) && !zd_takes_embeddings(settings)
-        && zd_integrator_of(settings->integrator)->create == zd_runge_kutta_create;
+        && !(settings->max_move > 0) && system->mh + system->mn <= system->nv && zd_takes_closed_form(settings)
+        && !zd_takes_embeddings(settings) && zd_integrator_of(settings->integrator)->create == zd_runge_kutta_create;
 }
 
 int zd_lanes_serve(const zd_batch *batch)
