@@ -119,15 +119,14 @@ static void meet(double a, double fa, double p, double b, double fb, double q, d
     if (value < *f) *f = value, *t = x;
 }
 
-/* Least value that a convex function with these points may have, and its time: that of a kink, as of a distance. */
+/* Least value beside m that a function may have which goes on to a kink with its slopes here, and its time: that of a distance has one. */
 static double kink(const zd_zeros *self, double *f)
 {
     const double p = (self->fm - self->fa) / (self->m - self->a), q = (self->fb - self->fm) / (self->b - self->m);
     double t = self->m;
     *f = self->fm;
-    if (!(self->before < q && p < self->after)) return t;
-    meet(self->a, self->fa, self->before, self->m, self->fm, q, &t, f);
-    meet(self->m, self->fm, p, self->b, self->fb, self->after, &t, f);
+    if (self->before < q) meet(self->a, self->fa, self->before, self->m, self->fm, q, &t, f);
+    if (p < self->after) meet(self->m, self->fm, p, self->b, self->fb, self->after, &t, f);
     return t;
 }
 

@@ -150,6 +150,18 @@ def test_small_shapes_on_a_long_way_are_met(far):
     assert sol["disc.velocity.x"][-1] == pytest.approx(-10.0)
 
 
+@pytest.mark.parametrize("way", [{}, {"max_step": 0.05}], ids=["long", "short"])
+def test_a_short_way_through_an_arc_is_not_passed_over(way):
+    """A bounce near the end of an arc: the gap is below zero in a sixteenth of the long step, after a rise."""
+    m, half, radius = zd.Mechanism("hill", gravity=(0, -0.03 * G)), 1.13, 0.01724
+    ends = [radius * np.array([np.sin(each), np.cos(each)]) for each in (half, -half)]
+    point = m.body("point", 0.43, 2.43e-6, at=(0.014659, 0.014827))
+    m.contact("hill", point, m.ground.arc((0, 0), *ends), restitution=0.3976, friction=0.388)
+    m.start({point.velocity: (-0.020472, -0.0040368)})
+    sol = zd.simulate(m, 1.0, rtol=1e-9, atol=1e-11, **way)
+    assert sol.impacts["t"] == pytest.approx([0.1208, 0.3007], abs=1e-3)
+
+
 @pytest.mark.parametrize(("change", "words"), [
     (lambda m: m.contact("c", m["disc"], m.ground.circle((0, 5), 0.0)), "the circle is a point"),
     (lambda m: m.contact("c", m["disc"], m.ground.circle((0, 5), 0.05, outside=False), radius=BALL), "less than that of the"),
