@@ -11,11 +11,12 @@ from ..._private import checks
 from ..._private.types import Expression, MeasureLike
 from ...errors import WrongType, WrongValue
 from ..elements.bodies import Body, Point
-from ..elements.contacts import Contact, Latch, RoundContact, Stop
+from ..elements.contacts import Compliance, Contact, Latch, RoundContact, Stop
 from ..elements.frames import Circle, Line
 from ..elements.immutable import amend
 from ..elements.joints import Joint
 from ..elements.measures import Measure, name_of
+from ..elements.numbers import AS_GIVEN
 from ..elements.switches import Switched
 from ..equations.measure_names import checked_reading
 from .registry import Elements
@@ -30,7 +31,8 @@ class ContactVerbs(Elements):
     """One-sided constraints and latches."""
 
     def contact(self, name: str, first: Body | Point | str, shape: Line | Circle, *, radius: float = 0.0,
-                restitution: float = 0.0, friction: Friction = 0.0) -> Contact:
+                restitution: float = 0.0, friction: Friction = 0.0, stiffness: float | None = None, damping: float = 0.0,
+                exponent: float = 1.0) -> Contact:
         """Let a point or a round body touch a shape of another: it may rest on it, slide, stick, roll, lift off and bounce.
 
         Parameters
@@ -46,6 +48,9 @@ class ContactVerbs(Elements):
             Coefficient of restitution, 0 to 1.
         friction : float or (float, float)
             Coefficient of friction; or those of static and of sliding friction.
+        stiffness, damping, exponent : float
+            Of a compliant one instead, after Hunt and Crossley: its force is ``stiffness * d**exponent * (1 + damping * d')`` for
+            a depth d, at least 0; damping in s/m. It has no restitution and no friction, and its shape no ends.
 
         Returns
         -------
@@ -83,10 +88,16 @@ class ContactVerbs(Elements):
         if radius or any(_friction(name, friction)):
             self._turning(name, "friction or radius of", *(body for body in (other.body,) if radius))
         kind = Contact if isinstance(shape, Line) else RoundContact
-        return self._add(kind(name, one, other, radius, shape, restitution_of(name, restitution), _friction(name, friction)))
+        given = restitution_of(name, restitution), _friction(name, friction), _compliance(name, stiffness, damping, exponent)
+        made = kind(name, one, other, radius, shape, *given)
+        if made.compliance and (restitution or any(made.friction) or made.bounds(AS_GIVEN)):
+            raise WrongType(f"{name!r} with stiffness= must have no restitution, no friction, and a shape without ends",
+                            "conflicting-arguments")
+        return self._add(made)
 
     def stop(self, name: str, measure: Measure | str, *, lower: float | None = None, upper: float | None = None,
-             restitution: float = 0.0) -> Stop:
+             restitution: float = 0.0, stiffness: float | None = None, damping: float = 0.0,
+             exponent: float = 1.0) -> Stop:
         """Keep a measure within limits: an end stop, a slack rope; of a rate, a one-way clutch or a limit of a speed.
 
         Parameters
@@ -98,6 +109,9 @@ class ContactVerbs(Elements):
             Limits, in the unit of the measure; at least one.
         restitution : float
             Coefficient of restitution, 0 to 1; of a rate 0.
+        stiffness, damping, exponent : float
+            Of a compliant one instead, after Hunt and Crossley: its effort is ``stiffness * d**exponent * (1 + damping * d')``
+            for a depth d, at least 0; damping in s/m or s/rad. It has no restitution.
 
         Returns
         -------
@@ -132,7 +146,12 @@ class ContactVerbs(Elements):
                              "out-of-range")
         quantity, = read.quantities
         effort = "torque" if "ang" in quantity.rpartition(".")[2] else "force"
-        return self._add(Stop(name, of, lower, upper, restitution_of(name, restitution), effort, quantity, read.is_rate))
+        compliance = _compliance(name, stiffness, damping, exponent)
+        if compliance and (restitution or read.is_rate):
+            raise WrongType(f"stop {name!r} with stiffness= must be of positions, and have no restitution",
+                            "conflicting-arguments")
+        return self._add(Stop(name, of, lower, upper, restitution_of(name, restitution), effort, quantity, read.is_rate,
+                              compliance))
 
 
     def latch(self, name: str, joint: Joint | str, *, when: MeasureLike | Expression | Event | None = None,
@@ -211,6 +230,15 @@ def with_switches(m: Elements, joint: Joint, given: Mapping[str, Any]) -> Joint:
     if joint._switched.needs_rows:
         amend(joint, cut=True)
     return joint
+
+
+def _compliance(name: str, stiffness: Any, damping: Any, exponent: Any) -> Compliance | None:
+    """Law of a compliant contact, checked; None: it is rigid."""
+    if stiffness is None:
+        return None
+    return Compliance(checks.number(f"stiffness of {name!r}", stiffness, above=0),
+                      checks.number(f"damping of {name!r}", damping, least=0),
+                      checks.number(f"exponent of {name!r}", exponent, least=1))
 
 
 def restitution_of(name: str, given: Any) -> float:

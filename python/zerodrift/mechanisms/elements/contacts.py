@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,6 +14,30 @@ from .joints import Joint
 from .measures import Measure, scalar
 from .numbers import AS_GIVEN, Numbers
 from .switches import Switch, friction_with, of_friction
+
+
+class Compliance(NamedTuple):
+    """Law of Hunt and Crossley: stiffness d^exponent (1 + damping d'), at least 0, for a depth d above 0."""
+
+    stiffness: float        # N/m^exponent, N m/rad^exponent
+    damping: float          # s/m, s/rad
+    exponent: float
+
+    def law(self) -> Callable[[Any, Any], Any]:
+        """Force, from a gap and its rate."""
+        stiffness, damping, exponent = self
+
+        def push(gap: Any, rate: Any) -> Any:
+            return stiffness * max(0.0, -gap)**exponent * max(0.0, 1.0 - damping * rate)
+        return push
+
+    def numbers(self) -> dict[str, float]:
+        """Values by the last word of their paths."""
+        return self._asdict()
+
+    def with_numbers(self, element: Any, numbers: Numbers) -> Compliance:
+        """The same with parameters that may have been changed."""
+        return Compliance(*(numbers(element, word, value) for word, value in self._asdict().items()))
 
 
 class Bounds(NamedTuple):
@@ -38,6 +62,8 @@ class Contact(Joint):
         Coefficient of restitution.
     friction : tuple of float
         Coefficients of static and of sliding friction.
+    compliance : Compliance or None
+        Law of its force; None: it is rigid.
     """
 
     unswitched, switched = None, None
@@ -47,16 +73,17 @@ class Contact(Joint):
     other = 0           # of a part: from its first switch to that of the other side
 
     def __init__(self, name: str, first: Point, second: Point, radius: float, shape: Any, restitution: float,
-                 friction: tuple[float, float]) -> None:
+                 friction: tuple[float, float], compliance: Compliance | None = None) -> None:
         super().__init__(name, first, second, axis=shape.direction)
         self.radius, self.shape, self.restitution, self.friction = radius, shape, restitution, friction
+        self.compliance = compliance
 
     @property
     def parts(self) -> tuple[Joint, ...]:
         """Itself; of a segment its left and right side, and for a round body its ends."""
         line = self.shape
         if line.length == np.inf:
-            return (self,)
+            return () if self.compliance else (self,)
         start, end = (np.asarray(at) for at in (line.start, line.start + line.length * line.direction))
         back = line._replace(start=end, direction=-line.direction)
         sides = [self._part(Contact, f"{self.name} {word}", each) for word, each in (("left", line), ("right", back))]
@@ -90,7 +117,8 @@ class Contact(Joint):
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
-        return {"radius": self.radius, "restitution": self.restitution, **of_friction("friction", self.friction)}
+        rigid = {"restitution": self.restitution, **of_friction("friction", self.friction)}
+        return {"radius": self.radius, **(self.compliance.numbers() if self.compliance else rigid)}
 
     def switches(self, numbers: Numbers) -> Iterator[Switch]:
         """Its switched constraints: the gap, and the slip."""
@@ -128,7 +156,7 @@ class RoundContact(Contact):
         """Itself, and of an arc its ends, if a round body touches it."""
         circle = self.shape
         if circle.half_angle == np.pi:
-            return (self,)
+            return () if self.compliance else (self,)
         towards = complex(*circle.direction) * circle.radius
         turned = (towards * np.exp(1j * angle) for angle in (-circle.half_angle, circle.half_angle))
         return (self, *self._ends(*(circle.start + np.array([at.real, at.imag]) for at in turned)))
@@ -164,6 +192,8 @@ class Stop(Fixed):
         Name of the measure.
     lower, upper : float or None
     restitution : float
+    compliance : Compliance or None
+        Law of its effort; None: it is rigid.
     """
 
     kind, unswitched = "stop", None
@@ -171,9 +201,10 @@ class Stop(Fixed):
     torque = scalar("torque", "Torque in N m on its measure, an angle, positive upward.")
 
     def __init__(self, name: str, of: str, lower: float | None, upper: float | None, restitution: float, effort: str,
-                 quantity: str, is_rate: bool) -> None:
+                 quantity: str, is_rate: bool, compliance: Compliance | None) -> None:
         self.name, self.of, self.lower, self.upper, self.restitution, self.effort = name, of, lower, upper, restitution, effort
         self.quantity, self.is_rate = quantity, is_rate     # of a rate: what it is the rate of
+        self.compliance = compliance
 
     @property
     def limits(self) -> dict[str, float]:
@@ -182,7 +213,7 @@ class Stop(Fixed):
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
-        return {**self.limits, "restitution": self.restitution}
+        return {**self.limits, **(self.compliance.numbers() if self.compliance else {"restitution": self.restitution})}
 
     def switches(self, numbers: Numbers) -> Iterator[Switch]:
         """A switched constraint for each limit, of one row."""
@@ -225,4 +256,5 @@ class Latch(Fixed):
 def switching(elements: Any) -> list[Any]:
     """Elements whose constraints are not all active at all times."""
     return [element for element in elements
-            if isinstance(element, Contact | Stop) or getattr(element, "switched", None) or getattr(element, "backlash", 0.0)]
+            if (isinstance(element, Contact | Stop) and not element.compliance) or getattr(element, "switched", None)
+            or getattr(element, "backlash", 0.0)]

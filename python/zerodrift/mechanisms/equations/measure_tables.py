@@ -86,7 +86,7 @@ def _positions(tables: Tables, wanted: Collection[str] | None) -> Iterator[Posit
     for point in tables.drawing.of(Point):
         yield _place(tables, point.name, point)
     for joint in tables.drawing.of(Joint):
-        if has_coordinate(joint):
+        if has_coordinate(joint) and joint.parts:
             unit = "rad" if joint.coordinate == "angle" else "m"
             yield Position(f"{joint.name}.{joint.coordinate}", unit, f"{joint.name}.speed", f"{joint.name}.acceleration",
                            partial(_one, tables.coordinate_quantity, tables.joint_number[joint.name]))
@@ -144,6 +144,8 @@ def _place(tables: Tables, name: str, of: Body | Point) -> Position:
 def _of_joints(tables: Tables) -> Iterator[OutputSpec]:
     """Reactions of joints."""
     for joint in tables.drawing.of(Joint):
+        if not joint.parts:
+            continue
         i = tables.joint_number[joint.name]
         yield OutputSpec(f"{joint.name}.force", "N", "joint force", i, joint.dimension,
                          term=len(joint.parts) - 1)

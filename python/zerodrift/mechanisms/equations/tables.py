@@ -55,7 +55,7 @@ class Tables:
         self.joints = [part for joint in drawing.of(Joint) for part in joint.parts]
         self.number = {"ground": 0, **{body.name: i for i, body in enumerate(self.parts, 1)}}
         self.joint_number = {joint.name: i for i, joint in enumerate(self.joints)}
-        self.joint_number |= {joint.name: self.joint_number[joint.parts[0].name] for joint in drawing.of(Joint)}
+        self.joint_number |= {joint.name: self.joint_number[joint.parts[0].name] for joint in drawing.of(Joint) if joint.parts}
         self.quantities: list[Any] = []     # Quantity, in space that of space
         self.quantity_number: dict[str, int] = {}
         self.relations: list[entries.Relation] = []

@@ -151,18 +151,21 @@ def _rolling(m: Any, name: str, *, first: Any, second: Any, radius: Any, normal:
 
 def _contact(m: Any, name: str, *, first: Any, second: Any, radius: Any, restitution: Any, friction: Any,
              direction: Any = (1.0, 0.0), length: Any = None, ring: Any = None, outside: Any = True,
-             half_angle: Any = np.pi) -> None:
+             half_angle: Any = np.pi, stiffness: Any = None, damping: Any = 0.0, exponent: Any = 1.0) -> None:
     axis, start = direction_from_json("direction", direction), point_of_body(m, first)
     end = np.inf if length is None else checks.number("length", length, above=0)
     shape = Line(start.body, start.local, axis, end) if ring is None else Circle(
         start.body, start.local, checks.number("ring", ring, least=0), checks.instance("outside", outside, bool, "True or False"),
         axis, checks.number("half_angle", half_angle, above=0))
     m.contact(name, place_from_json(m, second), shape, radius=radius, restitution=restitution,
-              friction=tuple(checks.vector("friction", friction, 2).tolist()))
+              friction=tuple(checks.vector("friction", friction, 2).tolist()), stiffness=stiffness,
+              damping=damping, exponent=exponent)
 
 
-def _stop(m: Any, name: str, *, measure: Any, lower: Any = None, upper: Any = None, restitution: Any) -> None:
-    m.stop(name, measure, lower=lower, upper=upper, restitution=restitution)
+def _stop(m: Any, name: str, *, measure: Any, lower: Any = None, upper: Any = None, restitution: Any, stiffness: Any = None,
+          damping: Any = 0.0, exponent: Any = 1.0) -> None:
+    m.stop(name, measure, lower=lower, upper=upper, restitution=restitution, stiffness=stiffness, damping=damping,
+           exponent=exponent)
 
 
 def _latch(m: Any, name: str, *, joint: Any, when: Any = None, until: Any = None) -> None:

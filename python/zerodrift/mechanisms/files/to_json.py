@@ -101,11 +101,12 @@ def _contact(contact: Any, drawing: Drawing) -> dict[str, Any]:
         arc = {"direction": numbers(shape.direction), "half_angle": shape.half_angle} if shape.half_angle < np.pi else {}
         given = {"ring": shape.radius, "outside": shape.outside, **arc}
     return {**sides(contact, drawing), **given, "radius": contact.radius, "restitution": contact.restitution,
-            "friction": list(contact.friction)}
+            "friction": list(contact.friction), **(contact.compliance.numbers() if contact.compliance else {})}
 
 
 def _stop(stop: Any, drawing: Drawing) -> dict[str, Any]:
-    return {"measure": stop.of, **stop.limits, "restitution": stop.restitution}
+    compliance = stop.compliance.numbers() if stop.compliance else {}
+    return {"measure": stop.of, **stop.limits, "restitution": stop.restitution, **compliance}
 
 
 def _latch(latch: Any, drawing: Drawing) -> dict[str, Any]:
