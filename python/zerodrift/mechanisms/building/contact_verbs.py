@@ -49,8 +49,8 @@ class ContactVerbs(Elements):
         friction : float or (float, float)
             Coefficient of friction; or those of static and of sliding friction.
         stiffness, damping, exponent : float
-            Of a compliant one instead, after Hunt and Crossley: its force is ``stiffness * d**exponent * (1 + damping * d')`` for
-            a depth d, at least 0; damping in s/m. It has no restitution and no friction, and its shape no ends.
+            Law of a compliant one instead, after Hunt and Crossley: its force is
+            ``stiffness * d**exponent * (1 + damping * d')`` for a depth d, at least 0; damping in s/m. It has no restitution and no friction, and its shape no ends.
 
         Returns
         -------
@@ -110,8 +110,8 @@ class ContactVerbs(Elements):
         restitution : float
             Coefficient of restitution, 0 to 1; of a rate 0.
         stiffness, damping, exponent : float
-            Of a compliant one instead, after Hunt and Crossley: its effort is ``stiffness * d**exponent * (1 + damping * d')``
-            for a depth d, at least 0; damping in s/m or s/rad. It has no restitution.
+            Law of a compliant one instead, after Hunt and Crossley: its effort is
+            ``stiffness * d**exponent * (1 + damping * d')`` for a depth d, at least 0; damping in s/m or s/rad. It has no restitution.
 
         Returns
         -------

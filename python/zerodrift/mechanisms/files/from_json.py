@@ -15,6 +15,7 @@ from ..building.contact_verbs import with_switches
 from ..building.table_force_verbs import NEEDED, sides, words
 from ..building.table_joint_verbs import verb
 from ..building.table_verbs import FORCES, PLANE
+from ..elements.contacts import Compliance
 from ..elements.forces import Gravity
 from ..elements.frames import Circle, Line
 from ..elements.immutable import amend
@@ -149,23 +150,32 @@ def _rolling(m: Any, name: str, *, first: Any, second: Any, radius: Any, normal:
     amend(joint, first=line, axis=np.array([normal[1], -normal[0]]))
 
 
-def _contact(m: Any, name: str, *, first: Any, second: Any, radius: Any, restitution: Any, friction: Any,
-             direction: Any = (1.0, 0.0), length: Any = None, ring: Any = None, outside: Any = True,
-             half_angle: Any = np.pi, stiffness: Any = None, damping: Any = 0.0, exponent: Any = 1.0) -> None:
-    axis, start = direction_from_json("direction", direction), point_of_body(m, first)
-    end = np.inf if length is None else checks.number("length", length, above=0)
-    shape = Line(start.body, start.local, axis, end) if ring is None else Circle(
-        start.body, start.local, checks.number("ring", ring, least=0), checks.instance("outside", outside, bool, "True or False"),
-        axis, checks.number("half_angle", half_angle, above=0))
-    m.contact(name, place_from_json(m, second), shape, radius=radius, restitution=restitution,
-              friction=tuple(checks.vector("friction", friction, 2).tolist()), stiffness=stiffness,
-              damping=damping, exponent=exponent)
+def _contact(m: Any, name: str, *, first: Any, second: Any, shape: Any, radius: Any, restitution: Any, friction: Any,
+             compliance: Any = None) -> None:
+    given = checks.instance("shape", shape, dict, "an object")
+    made = _shape(point_of_body(m, first), **_fields(_shape, given, f"shape of {name!r}", skip=()))
+    m.contact(name, place_from_json(m, second), made, radius=radius, restitution=restitution,
+              friction=tuple(checks.vector("friction", friction, 2).tolist()), **_compliance(compliance))
 
 
-def _stop(m: Any, name: str, *, measure: Any, lower: Any = None, upper: Any = None, restitution: Any, stiffness: Any = None,
-          damping: Any = 0.0, exponent: Any = 1.0) -> None:
-    m.stop(name, measure, lower=lower, upper=upper, restitution=restitution, stiffness=stiffness, damping=damping,
-           exponent=exponent)
+def _shape(start: Any, *, direction: Any = (1.0, 0.0), length: Any = None, ring: Any = None, outside: Any = True,
+           half_angle: Any = np.pi) -> Line | Circle:
+    axis = direction_from_json("direction", direction)
+    if ring is None:
+        return Line(start.body, start.local, axis, np.inf if length is None else checks.number("length", length, above=0))
+    outside = checks.instance("outside", outside, bool, "True or False")
+    return Circle(start.body, start.local, checks.number("ring", ring, least=0), outside, axis,
+                  checks.number("half_angle", half_angle, above=0))
+
+
+def _compliance(given: Any) -> dict[str, Any]:
+    """Law of a compliant contact, as arguments."""
+    return {} if given is None else dict(zip(Compliance._fields, checks.vector("compliance", given, 3).tolist(), strict=True))
+
+
+def _stop(m: Any, name: str, *, measure: Any, lower: Any = None, upper: Any = None, restitution: Any,
+          compliance: Any = None) -> None:
+    m.stop(name, measure, lower=lower, upper=upper, restitution=restitution, **_compliance(compliance))
 
 
 def _latch(m: Any, name: str, *, joint: Any, when: Any = None, until: Any = None) -> None:

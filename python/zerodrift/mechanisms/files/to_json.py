@@ -100,13 +100,16 @@ def _contact(contact: Any, drawing: Drawing) -> dict[str, Any]:
     else:
         arc = {"direction": numbers(shape.direction), "half_angle": shape.half_angle} if shape.half_angle < np.pi else {}
         given = {"ring": shape.radius, "outside": shape.outside, **arc}
-    return {**sides(contact, drawing), **given, "radius": contact.radius, "restitution": contact.restitution,
-            "friction": list(contact.friction), **(contact.compliance.numbers() if contact.compliance else {})}
+    return {**sides(contact, drawing), "shape": given, "radius": contact.radius, "restitution": contact.restitution,
+            "friction": list(contact.friction), **_compliance(contact)}
+
+
+def _compliance(element: Any) -> dict[str, Any]:
+    return {"compliance": list(element.compliance)} if element.compliance else {}
 
 
 def _stop(stop: Any, drawing: Drawing) -> dict[str, Any]:
-    compliance = stop.compliance.numbers() if stop.compliance else {}
-    return {"measure": stop.of, **stop.limits, "restitution": stop.restitution, **compliance}
+    return {"measure": stop.of, **stop.limits, "restitution": stop.restitution, **_compliance(stop)}
 
 
 def _latch(latch: Any, drawing: Drawing) -> dict[str, Any]:
