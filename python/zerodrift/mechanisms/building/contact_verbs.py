@@ -50,7 +50,8 @@ class ContactVerbs(Elements):
             Coefficient of friction; or those of static and of sliding friction.
         stiffness, damping, exponent : float
             Law of a compliant one instead, after Hunt and Crossley: its force is
-            ``stiffness * d**exponent * (1 + damping * d')`` for a depth d, at least 0; damping in s/m. It has no restitution and no friction, and its shape no ends.
+            ``stiffness * d**exponent * (1 + damping * d')`` for a depth d, at least 0; damping in
+            s/m. It has no restitution and no friction, and its shape no ends.
 
         Returns
         -------
@@ -111,7 +112,8 @@ class ContactVerbs(Elements):
             Coefficient of restitution, 0 to 1; of a rate 0.
         stiffness, damping, exponent : float
             Law of a compliant one instead, after Hunt and Crossley: its effort is
-            ``stiffness * d**exponent * (1 + damping * d')`` for a depth d, at least 0; damping in s/m or s/rad. It has no restitution.
+            ``stiffness * d**exponent * (1 + damping * d')`` for a depth d, at least 0; damping in
+            s/m or s/rad. It has no restitution.
 
         Returns
         -------
