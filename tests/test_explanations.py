@@ -99,7 +99,7 @@ PLAIN = {
     "NotImplementedError": "a method that each class of the package defines",
     "argparse.ArgumentTypeError": "argparse prints it as one of its own",
     "type(error)": "an error of the operating system that names another path",
-    **dict.fromkeys(("LookupError", "Cancelled", "Unrecorded", "Unwritten", "Varies"), "caught by the package"),
+    **dict.fromkeys(("LookupError", "Cancelled", "Unrecorded", "Unwritten", "Varies", "_Touched"), "caught by the package"),
 }
 # Functions that return an error of the package, which are raised at once.
 MAKERS = {"error_of", "self.error", "run.error", "_failure", "_complaint", "_beyond", "self.refusal", "self.goal.refusal",

@@ -1,5 +1,6 @@
 """The site: it builds without a warning, needs no network, its code runs, and its pages can be read by everybody."""
 
+import contextvars
 import os
 import re
 import subprocess
@@ -36,8 +37,9 @@ def test_code_of_pages_runs(page, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     blocks = code_of(page)
     names = {}
+    here = contextvars.copy_context()       # a choice of units ends with the page, also where a package is missing
     for block in blocks:
-        exec(compile(block, f"{page}.md", "exec"), names)
+        here.run(exec, compile(block, f"{page}.md", "exec"), names)
 
 
 @pytest.fixture(scope="module")

@@ -90,6 +90,12 @@ static int locate(zd_watch *self, zd_occurrence *occurrence)
     return ZD_DONE;
 }
 
+static int is_of_group(const zd_events *events, int event)
+{
+    const zd_event *known = events->known ? events->known + event : NULL;
+    return known && known->readings && known->reading->what == ZD_READS_GROUP;
+}
+
 /* Locates at most this number of occurrences of an event in the step. The first terminal one before `end` becomes the last of the run. */
 static int locate_event(zd_watch *self, int event, int most, double *end)
 {
@@ -100,7 +106,7 @@ static int locate_event(zd_watch *self, int event, int most, double *end)
         zd_occurrence *it = &self->occurrence[self->occurrences++];
         *it = (zd_occurrence){event, k, bracket_of(self, event, k - 1, k)};
         /* Contacts with one freedom change at one instant. */
-        if (zd_acts(events, event) && it->bracket.a < *end && *end < it->bracket.b) it->bracket = zd_bracket_near(*end, it->bracket);
+        if (is_of_group(events, event) && it->bracket.a < *end && *end < it->bracket.b) it->bracket = zd_bracket_near(*end, it->bracket);
         int status = locate(self, it);
         if (status) return status;
         const int is_last = self->found[event] + ++number == events->terminal[event] || zd_acts(events, event);
