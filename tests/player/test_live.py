@@ -49,8 +49,10 @@ def test_it_simulates_on_its_constraints_without_an_error(browser, exhibit, tmp_
 def test_violations_are_drawn_and_the_energy_error_is_that_of_a_run(browser, tmp_path):
     opened(browser, zd.view(zd.models.slider_crank(), live=True), tmp_path)
     browser.evaluate("document.getElementById('play').click()")
-    t, found, drawn = browser.evaluate(f"""[{TIME}, zerodrift.energyViolation(zerodrift.live.mechanism),
-        zerodrift.live.trust.map(each => each.values.length)]""")
+    t, found, drawn, times = browser.evaluate(f"""[{TIME}, zerodrift.energyViolation(zerodrift.live.mechanism),
+        zerodrift.live.trust.map(each => each.values.length), zerodrift.live.times]""")
+    assert {len(times)} == {*drawn}     # at which they are drawn
+    assert times == sorted(times)
     sol = zd.simulate(zd.models.slider_crank(), round(t, 3), step=1e-3, closed_form=False, vector="baseline")
     assert found == pytest.approx(sol.energy_violation[-1], abs=1e-13)       # rounding of energies of some joules
     assert min(drawn) > 3

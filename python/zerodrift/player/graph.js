@@ -1,5 +1,5 @@
 /* Graphs over time, with ticks, a zero line, units and a cursor, for films, live views and the drawing board. `picture` has the colours; lines are
- * {name, unit, values}, whose values are equally spaced from `from` to `to`. What rests is drawn once for each `key`. */
+ * {name, unit, values}, at `times`, or equally spaced from `from` to `to`. What rests is drawn once for each `key`. */
 const HUES = ["accent", "second", "third", "ink", "grey", "force"], FONT = "11px system-ui, sans-serif";
 const shortly = x => x === 0 ? "0" : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-2 ? x.toExponential(2) : x.toPrecision(3);
 const tickOf = x => x === 0 ? "0" : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-3 ? x.toExponential().replace("e+", "e") : String(+x.toPrecision(6));
@@ -19,13 +19,13 @@ const rangeOf = (lines, log) => {
   const room = isConstant ? 0.5 * largest || 1 : 0.05 * (high - low);
   return [low - room, high + room];
 };
-const graph = (element, {tones, fit}, lines, {from, to, now = null, log = false, key = null}) => {
+const graph = (element, {tones, fit}, lines, {from, to, times = null, now = null, log = false, key = null}) => {
   const brush = element.getContext("2d"), [w, h] = fit(element, brush);
   if (!element.width || !element.height) return;
   const known = [key, element.width, element.height, tones.ink].join();
   if (key === null || element.known !== known) {
     element.known = known;
-    element.drawn = restingGraph(brush, lines, {tones, w, h, from, to, log});
+    element.drawn = restingGraph(brush, lines, {tones, w, h, from, to, times, log});
   }
   const {still, area: [left, right, top, low], words} = element.drawn;
   brush.clearRect(0, 0, w, h);
@@ -45,7 +45,7 @@ const graph = (element, {tones, fit}, lines, {from, to, now = null, log = false,
   brush.lineTo(x, low);
   brush.stroke();
 };
-const restingGraph = (brush, lines, {tones, w, h, from, to, log}) => {
+const restingGraph = (brush, lines, {tones, w, h, from, to, times, log}) => {
   const still = document.createElement("canvas"), pen = still.getContext("2d"), [a, b] = rangeOf(lines, log);
   [still.width, still.height] = [brush.canvas.width, brush.canvas.height];
   pen.setTransform(brush.getTransform());
@@ -79,7 +79,8 @@ const restingGraph = (brush, lines, {tones, w, h, from, to, log}) => {
   pen.fillText("s", right - 5, h - 3);
   line([[left, top], [left, low], [right, low]], tones.grey, 1);
   lines.forEach(({values}, i) => {
-    const points = Array.from(values, (x, k) => [left + (right - left) * k / Math.max(values.length - 1, 1), up(log ? logOf(x) : x)]);
+    const share = k => times ? (times[k] - from) / (to - from || 1) : k / Math.max(values.length - 1, 1);
+    const points = Array.from(values, (x, k) => [left + (right - left) * share(k), up(log ? logOf(x) : x)]);
     for (let k = 0; k < points.length; k++) {      // the parts between what is no number
       const part = [];
       while (k < points.length && Number.isFinite(points[k][1])) part.push(points[k++]);

@@ -109,7 +109,7 @@ function keep() {
 
 function drawGraphs() {
   const to = time(live.mechanism), from = live.times[0] ?? to;
-  for (const [element, lines, log] of drawnOn) graph(element, picture, lines, {from, to, log});
+  for (const [element, lines, log] of drawnOn) graph(element, picture, lines, {from, to, times: live.times, log});
 }
 
 // ---- time ----
