@@ -47,13 +47,13 @@ class display_units:        # noqa: N801 - called as a function
 
     Results stay in SI units: ``sol["pin.force"]`` is in N. The choice holds for `Solution.to_csv`, `Solution.to_excel`,
     `Solution.to_frame`, `Solution.loads`, ``zerodrift.plot``, and for films, explorations and live pages that are made after it;
-    their argument `display` takes precedence. Each call replaces the choice before, one without arguments by SI units. In a
-    ``with`` statement the choice ends with it.
+    their argument `display` takes precedence. Each call replaces the previous choice, and one without arguments restores SI
+    units. In a ``with`` statement the choice ends with it.
 
     Parameters
     ----------
     units : dict of str to str, optional
-        The same as keywords.
+        The same as `more`, as a dict.
     **more
         A unit for each quantity: ``force="kN"``, ``angle="deg"``, ``angular_velocity="rpm"``. Quantities are length, angle,
         velocity, angular_velocity, force, torque, energy, power, mass and time.

@@ -28,36 +28,36 @@ FAR = 20.0      # characteristic scales: a coordinate that has moved so far does
 
 def equilibrium(system: SystemLike, *, near: ArrayLike | Values | None = None, hold: Measures = (),
                 v: Values | None = None, stability: Literal["stable", "any"] = "stable", t: float = 0.0) -> Equilibrium:
-    """A position in which a system rests under its forces, or a steady motion with given speeds.
+    """Find a position in which a system rests under its forces, or a steady motion with given speeds.
 
     Newton's method solves the balance of forces on the tangent space of the constraints, with projection onto these as
     retraction, in a trust region of 0.3 rad or characteristic lengths. Holonomic, nonholonomic and redundant constraints are
-    treated alike, and no coordinate is chosen as independent. The search goes downhill, so that the forces do work in each
-    step; where it does not converge, the motion is integrated, stopped at each maximum of its kinetic energy, and Newton's
-    method finishes. The stiffness is that of fourth-order or better differences of the residuals, 1e-12. Mechanisms in the plane
-    with more than 200 velocities, of joints and springs, are solved by sparse factors where SciPy is installed: downhill, by at
-    most 600 steps, without an integrated motion after these and without hold=, which takes dense matrices.
+    treated alike, and no coordinate is chosen as independent. The search goes downhill, so that the forces do work in each step;
+    where it does not converge, the motion is integrated, stopped at each maximum of its kinetic energy, and Newton's method
+    finishes. The stiffness is from differences of the residuals of fourth or higher order, accurate to 1e-12. Mechanisms in the
+    plane with more than 200 velocities, of joints and springs, are solved by sparse factors where SciPy is installed: downhill,
+    by at most 600 steps, without an integrated motion after these, and not with hold=, which requires dense matrices.
 
     Parameters
     ----------
     system : system or Mechanism
     near : array_like (nq,), or dict of measure to value, optional
-        Position from which the search starts; or values of quantities of positions, to which the system is led from its start.
+        Position from which the search starts; or values of measures of positions, to which the system is moved from its start.
         Left out: the start.
     hold : sequence of measures, optional
-        Quantities of positions that keep the values that they have there; `Equilibrium.effort` has the efforts that hold them.
-        Reactions contain these efforts, and so does what user functions read of them; an effort along a joint's own coordinate
-        stands beside that joint's reaction.
-        In a steady motion they are constant, at values that it needs, such as the steering angle of a bicycle in a turn.
+        Measures of positions that keep the values that they have there; `Equilibrium.effort` has the efforts that hold them.
+        Reactions contain these efforts, also where user functions read them; an effort along a joint's own coordinate is
+        separate from that joint's reaction. In a steady motion they are constant, at values that it needs, such as the
+        steering angle of a bicycle in a turn.
     v : dict of measure to value, optional
-        A steady motion is found in place of a position of rest: speeds that are prescribed, with drives running. All bodies keep
+        Prescribed speeds of a steady motion, with drives running, which is found instead of a position of rest. All bodies keep
         their rates in a frame that turns about the direction of gravity, without gravity about any axis, or shifts along a line,
-        and the equations of motion hold at 16 instants of one turn of each rate, or of one characteristic length.
-        One near the start is found, stable or not.
+        and the equations of motion hold at 16 instants of one turn of each rate, or of one characteristic length. One near the
+        start is found, stable or not.
     stability : {"stable", "any"}
-        "stable" leaves an unstable equilibrium downhill; "any" takes Newton's method to one nearby, stable or not.
+        "stable" leaves an unstable equilibrium downhill; "any" finds one nearby by Newton's method, stable or not.
     t : float
-        Time in s at which drives stand; they are at rest there.
+        Time in s of the drives, which are at rest there.
 
     Returns
     -------

@@ -34,15 +34,15 @@ class Equilibrium(Reading):
     ----------
     system : system
     t : float
-        Time in s at which drives stand.
+        Time in s of the drives.
     p, v, vdot : ndarray (nq,), (nv,), (nv,)
     multipliers : ndarray (m,)
         With the sign of (7), ``C.T @ multipliers = f - d`` at rest.
     effort : dict of str to float or ndarray
-        Efforts, conjugate to the rates of the quantities that are held, in N or N m.
+        Efforts, conjugate to the rates of the held measures, in N or N m.
     stiffness : ndarray (k, k)
-        Reduced stiffness matrix, on a mass-orthonormal basis of the directions that nothing holds: its eigenvalues are squares
-        of angular frequencies, in 1/s^2. None in a steady motion, and with `damping` and `basis` of many bodies.
+        Reduced stiffness matrix, on a mass-orthonormal basis of the directions that are not held: its eigenvalues are squares of
+        angular frequencies, in 1/s^2. None in a steady motion, and with `damping` and `basis` of many bodies.
     damping : ndarray (k, k)
         Reduced damping matrix on the same basis, in 1/s.
     basis : ndarray (nv, k)

@@ -30,9 +30,9 @@ def inverse_dynamics(system: SystemLike, motion: Kinematics | ArrayLike, p: Arra
                      weights: Values | None = None) -> Efforts:
     """Efforts, reactions and power of a given motion.
 
-    The equations of motion (2) are projected onto the velocities that the constraints allow and solved for the efforts; what
-    remains gives the multipliers. With fewer efforts than freedoms the residual is the smallest in the mass metric; with more,
-    the sum of the squares of ``effort / weight`` is.
+    The equations of motion (2) are projected onto the velocities that the constraints allow and solved for the efforts; the
+    remainder gives the multipliers. With fewer efforts than freedoms the residual is the smallest in the mass metric; with
+    more, the sum of the squares of ``effort / weight`` is.
 
     Parameters
     ----------
@@ -43,10 +43,10 @@ def inverse_dynamics(system: SystemLike, motion: Kinematics | ArrayLike, p: Arra
         With times: the motion in the system's coordinates.
     efforts : sequence of str or measure, optional
         Efforts that drive the motion, conjugate to the rates of measures, coordinates or velocities; ``"joint.torque"`` and
-        ``"joint.force"`` act along the joint's coordinate. Left out: what is prescribed in `motion`. Drives of the system that
-        prescribe a motion have their efforts among the reactions, ``inv["motor.torque"]``.
+        ``"joint.force"`` act along the joint's coordinate. Left out: those along the prescribed quantities of `motion`. Drives
+        of the system that prescribe a motion have their efforts among the reactions, ``inv["motor.torque"]``.
     weights : dict of effort to float, optional
-        The magnitudes of efforts that count alike where there are more than freedoms; one where left out.
+        Magnitudes of efforts that count equally if there are more efforts than freedoms; by default 1.
 
     Returns
     -------
@@ -64,7 +64,7 @@ def inverse_dynamics(system: SystemLike, motion: Kinematics | ArrayLike, p: Arra
     Warns
     -----
     AccuracyWarning
-        If the efforts cannot drive the motion, as at a dead point; what they cannot is named.
+        If the efforts cannot drive the motion, as at a dead point; the direction is named.
 
     Examples
     --------

@@ -26,10 +26,10 @@ INACCURATE = 1e-4           # of the largest second rate: differences of an arra
 
 def kinematics(system: SystemLike, motion: Motions | None = None, t: ArrayLike | None = None, *, speed: float | None = None,
                near: ArrayLike | Values | None = None) -> Kinematics:
-    """Motion by prescribed quantities, or by the drives alone, without forces and masses; inverse kinematics for a robot's end.
+    """Motion by prescribed quantities, or by the drives alone, without forces and masses; inverse kinematics of a robot.
 
     Positions are tracked sample by sample on one assembly branch. Velocities and accelerations follow from (5) and (6) with the
-    rows of the prescribed quantities. Drives of the system run at the times of the samples.
+    constraints of the prescribed quantities. Drives of the system run at the times of the samples.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def kinematics(system: SystemLike, motion: Motions | None = None, t: ArrayLike |
     motion : dict of measure to values, optional
         Quantities of positions that are prescribed: arrays (k,) or (k, size) over the samples, callables of t in NumPy's
         functions, or SymPy expressions in t. Together with the constraints, drives included, they must determine all positions;
-        left out: drives must, of angles, displacements, lengths or constant speeds.
+        left out: drives of angles, displacements, lengths or constant speeds must.
     t : array_like (k,), optional
         Times of the samples in s, increasing. Arrays become quintic splines; `Kinematics.errors` estimates the errors of their
         second derivatives.
@@ -55,9 +55,9 @@ def kinematics(system: SystemLike, motion: Motions | None = None, t: ArrayLike |
     Raises
     ------
     SingularSystem
-        If positions stay free.
+        If positions are not determined.
     InconsistentStart
-        If what is prescribed contradicts itself or the constraints.
+        If prescribed quantities contradict each other or the constraints.
     ValueError, TypeError
         For a wrong argument.
 

@@ -53,7 +53,7 @@ class Linearization:
     rotation : ndarray (3,)
         Angular velocity in rad/s of the frame in which the motion is steady.
     phase : dict of str to str
-        State of each contact, stop, joint that switches and dry friction: what is closed, joined or sticking is a constraint.
+        State of each contact, stop, joint that switches and dry friction: closed, joined or sticking ones are constraints.
     is_exact : bool
         True: the derivatives of the accelerations are the system's own; False: they are finite differences.
     """
@@ -150,7 +150,7 @@ class Linearization:
         Parameters
         ----------
         names : sequence of str or measure, optional
-            Names of measures of positions, as of `in_coordinates`: states are these and their rates. Left out: states are along
+            Names of measures of positions, as in `in_coordinates`: states are these and their rates. Left out: states are along
             columns of `basis`, whose number is that of the eigenvalues.
 
         Returns

@@ -25,19 +25,19 @@ VIOLATION = 1e-6        # of characteristic scales: a state that violates its co
 
 def linearize(system: SystemLike, at: Reading | tuple[float, ArrayLike, ArrayLike] | None = None, *, v: Values | None = None,
               inputs: Measures = (), outputs: Measures = ()) -> Linearization:
-    """The linear motion z' = A z + B u, y = C z + D u near a state, (p, v) = (p0, v0) + basis z.
+    """Linear equations of motion z' = A z + B u, y = C z + D u near a state, (p, v) = (p0, v0) + basis z.
 
     z are coordinates on the tangent space of all constraints, so that none has to be chosen as dependent. In a steady motion the
-    basis moves along: displacements of bodies turn with the precession of the mechanism, and not with a wheel that spins.
-    At an instant of another motion the basis stands still, and z' = rate + A z + B u; `Linearization.in_coordinates` gives the
-    Jacobian of the equations of motion in quantities of one's own. Derivatives are those of the system's own Jacobian where it
-    has one, and otherwise differences of eighth order, with relative errors of some 1e-12.
+    basis moves along: displacements of bodies turn with the precession of the mechanism, and not with a wheel that spins. At an
+    instant of another motion the basis stands still, and z' = rate + A z + B u; `Linearization.in_coordinates` gives the
+    Jacobian of the equations of motion in chosen quantities. Derivatives are those of the system's own Jacobian where it has
+    one, and otherwise differences of eighth order, with relative errors of some 1e-12.
 
     Parameters
     ----------
     system : system or Mechanism
     at : Equilibrium, Instant, or (t, p, v), optional
-        The state. In an equilibrium drives stand still, and efforts that hold it stay as they are. Left out: the start, or the
+        The state. In an equilibrium drives are at rest, and efforts that hold it are constant. Left out: the start, or the
         steady motion with the speeds `v`.
     v : dict of measure to value, optional
         Speeds of a steady motion, as in `equilibrium`.
@@ -62,7 +62,7 @@ def linearize(system: SystemLike, at: Reading | tuple[float, ArrayLike, ArrayLik
     Warns
     -----
     AccuracyWarning
-        If the state is not an equilibrium or a steady motion: A then is that of an instant, and `Linearization.rate` is z' there.
+        If the state is not an equilibrium or a steady motion: A is then that of an instant, and `Linearization.rate` is z' there.
 
     Examples
     --------

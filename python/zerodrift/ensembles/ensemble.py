@@ -47,12 +47,12 @@ def ensemble(system: SystemLike | Callable[..., SystemLike], t_span: float | tup
     Runs execute in threads, or in the workers of an executor. Results do not depend on their number or order. Failed runs are
     kept with their message: see `failed` and `messages` of the result.
 
-    The core makes runs without Python where it can. In SIMD lanes, several at once: if the system is evaluated in closed form,
+    The core makes runs without Python where it can. Several at once in SIMD lanes: if the system is evaluated in closed form,
     outputs are coordinates, velocities and multipliers, output times are known in advance, and events are names or expressions;
     events that set inputs need `t_eval`, and a system of `symbolic`.
-    One by one, assembly and measures included: planar mechanisms with varied numbers, without user functions, wishes and drives
-    of constant speed. These results agree with `simulate` to rounding. All other runs are made by `simulate`; `repr` gives the
-    number of each kind.
+    Individually, assembly and measures included: planar mechanisms with varied numbers, without user functions, wishes and
+    drives of constant speed. These results agree with `simulate` to rounding. All other runs are made by `simulate`; `repr`
+    gives the number of each kind.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def ensemble(system: SystemLike | Callable[..., SystemLike], t_span: float | tup
     assemble : bool
         Make initial states consistent with the constraints after a change of parameters; always done for mechanisms.
     hold : sequence of str
-        Coordinates and velocities that this does not change, as in `zerodrift.assemble`.
+        Coordinates and velocities that assembly does not change, as in `zerodrift.assemble`.
     executor : None, "processes" or Executor
         None: threads of this process, in which Python functions of the user take turns. "processes": processes on this
         machine. Otherwise an executor with ``submit`` as in `concurrent.futures`, such as those of loky,

@@ -32,28 +32,29 @@ def table(x: ArrayLike | tuple[ArrayLike, ArrayLike], y: ArrayLike | None = None
     Parameters
     ----------
     x, y : array_like (n,)
-        The data, at least two points; x increases. In the units of what the law takes and gives: s, m, rad, N, N m.
+        The data, at least two points; x increases. In the units of the law's argument and value: s, m, rad, N, N m.
         Instead of both, the path of a CSV file of two columns, ``zd.table("data.csv")``; its first line may name them.
         On a grid x is a tuple of two arrays, (n,) and (k,), and y has shape (n, k).
     argument : str
-        The name of x as the law has it: "t", or of a force the name in its ``of``; on a grid a tuple of two names.
+        The name of x as the law has it: "t", or for a force the name in its ``of``; on a grid a tuple of two names.
     beyond : {"error", "hold", "line", "period"}
-        Values beyond the ends. "error": a motion that leaves the table ends with an error, see Notes; "hold": the last value;
-        "line": the straight line with the last slope; "period": the table repeats, and its first and last value are equal or,
-        of angles, differ by whole turns, which are added at each period.
+        Values beyond the ends. "error": a motion beyond the table ends with an error, see Notes; "hold": the last value;
+        "line": the straight line with the last slope; "period": the table repeats, and its first and last values must be
+        equal or, for angles, differ by whole turns, which are added at each period.
     kind : {"smooth", "linear", "steps"}
         "smooth": the cubic spline, with continuous first and second derivatives, and a continuous third one at the second and
         the last but one point (not-a-knot, as SciPy's ``CubicSpline``); through two or three points the straight line or the
         parabola. "linear": straight lines. "steps": each value holds from its point to the next.
     noise : float, optional
         Standard deviation of y, in its unit: the natural spline of least curvature whose mean squared distance from y is
-        noise**2. The straight line that fits best, if that is not farther. Kind "smooth", not of a period.
+        noise**2, or the best straight line if that is not farther. Only for kind "smooth", without a period.
 
     Returns
     -------
     callable
-        To be given wherever a mechanism takes a function; derivatives are its own. It prints its kind and the smoothing
-        parameter, which is the weight of the integral of the squared second derivative beside the sum of squared distances.
+        For any argument of a mechanism that may be a function; it has its own derivatives. It prints its kind and the
+        smoothing parameter, which is the weight of the integral of the squared second derivative beside the sum of squared
+        distances.
 
     Raises
     ------
@@ -80,7 +81,7 @@ def table(x: ArrayLike | tuple[ArrayLike, ArrayLike], y: ArrayLike | None = None
     Notes
     -----
     With ``beyond="error"`` the end of a step must be within the ends of the table, up to ten times the tolerance of the step and
-    1e-9 of the table's length. Trial stages of a step may be beyond: the first and the last piece go on there.
+    1e-9 of the table's length. Trial stages of a step may be beyond: the first and the last piece are continued there.
     """
     checks.choice("beyond", beyond, BEYOND)
     checks.choice("kind", kind, KINDS)

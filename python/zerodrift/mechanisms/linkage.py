@@ -28,7 +28,8 @@ def linkage(points: Mapping[str, ArrayLike], links: Mapping[str, str | Sequence[
     Parameters
     ----------
     points : dict of str to array_like (2,)
-        The sketch: approximate positions. Given lengths override it; what they leave open is as near to it as possible.
+        The sketch: approximate positions. Given lengths override it; the remaining dimensions are as close to it as
+        possible.
     links : dict of str to points
         The points of each link: a string of one-letter names, or a sequence of names. The fixed points are those of ``"ground"``.
     lengths : dict of points to float, optional
@@ -57,9 +58,9 @@ def linkage(points: Mapping[str, ArrayLike], links: Mapping[str, str | Sequence[
     ------
     ValueError, TypeError
         For points that are undefined or unused, links of one point, lengths between points of different links, lengths that
-        make no triangle or contradict each other.
+        form no triangle or contradict each other.
     CorrectionFailed
-        If links cannot be joined; it says which loop stays open, and by how much.
+        If links cannot be joined; the message names the loop that stays open, and its gap.
 
     References
     ----------

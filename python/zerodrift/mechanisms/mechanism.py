@@ -36,9 +36,9 @@ ROTOR = "rotor", "shaft", "gear"        # elements of a motor whose rotor is gea
 class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, ContactVerbs, StartVerbs, Makes):
     """A mechanism in the plane or in space, from bodies and joints.
 
-    Bodies are drawn, joints join them where they are in the drawing, and lengths count where the drawing is a sketch. Where a
-    verb takes a joint, a body or a point, it takes its name as well: ``"pin"``, ``"crank"``, ``"crank.end"``. Every function
-    that takes a system takes a mechanism. No call finishes it: elements may be added at any time.
+    Bodies are drawn, joints join them where they are in the drawing, and given lengths override the drawing. Where a verb
+    takes a joint, a body or a point, it takes its name as well: ``"pin"``, ``"crank"``, ``"crank.end"``. Every function that
+    takes a system takes a mechanism. Elements may be added at any time.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, ContactVerbs, 
         In m/s^2, in the drawing's axes; left out: none. A function, such as of ``t``, returns a number for each axis; its work is
         an input of energy.
     parameters : dict of str to float, optional
-        Numbers of one's own, which callables and expressions may name; `parameter` adds to them.
+        User parameters, which callables and expressions may name; `parameter` adds one.
 
     Attributes
     ----------
@@ -103,30 +103,30 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, ContactVerbs, 
         ----------
         coordinates : {None, "joint", "absolute"}
             "joint": absolute angles and displacements along a tree of joints; joints that close loops are constraints.
-            "absolute": three coordinates a body, and all joints are constraints; what that costs follows the number of bodies,
-            where joint coordinates cost up to its third power. None: those that cost less, by a count of what a step does: joint
-            ones for open chains of some twenty bodies and for one or two loops, absolute ones for more. Joint ones, too, where a
-            body has no mass, and for `compiled`; absolute ones where all bodies are welded to the ground. Loops of hinges and
-            sliders alone in space take absolute ones up to eight times the count, as these go through flat poses where joint ones
-            can stop. ``repr`` says which were taken, and `print` of a mechanism shows both counts.
-            In space, "joint" are the angles, displacements and quaternions of joints along the tree, of free bodies their place
-            and quaternion, and the angles of joints that close loops, which follow; "absolute" are seven coordinates and six
-            velocities a body, and the angles of all joints. Chains of balls are cheaper in absolute coordinates, those of hinges
-            from some twenty on.
+            "absolute": three coordinates a body, and all joints are constraints; the cost is proportional to the number of
+            bodies, that of joint coordinates to up to its third power. None: those that cost less, by a count of the operations
+            of a step: joint ones for open chains of some twenty bodies and for one or two loops, absolute ones for more. Joint
+            ones, too, where a body has no mass, and for `compiled`; absolute ones where all bodies are welded to the ground.
+            Loops of hinges and sliders alone in space take absolute ones up to eight times the count, as these go through flat
+            poses where joint ones can stop. ``repr`` names the chosen ones, and `print` of a mechanism shows both counts.
+            In space, "joint" are the angles, displacements and quaternions of joints along the tree, the positions and
+            quaternions of free bodies, and the angles of joints that close loops, which follow from the others; "absolute" are
+            seven coordinates and six velocities a body, and the angles of all joints. Absolute coordinates are cheaper for
+            chains of ball joints, and for chains of some twenty hinges or more.
         compiled : None or bool
-            None: tables are interpreted, and small mechanisms evaluated in closed form by programs that the core runs. A run
-            of fixed steps that gains more than 5 s by it, from a count of instructions, compiles the equations before its
-            first step, and steps in closed form keep their bits; ``print(sol)`` of others has what `compiled` would save.
-            ZERODRIFT_COMPILE=0 in the environment refuses that. False: tables and matrices alone.
+            None: tables are interpreted, and small mechanisms evaluated in closed form by programs that the core runs. A run of
+            fixed steps that compilation shortens by more than 5 s, by a count of instructions, compiles the equations before its
+            first step; results in closed form stay bitwise the same. ``print(sol)`` of other runs gives the time that `compiled`
+            would save. ZERODRIFT_COMPILE=0 in the environment prevents this. False: tables and matrices alone.
             True: the equations are written out, compiled and cached, with closed-form functions where these pay:
-            some three times faster for small mechanisms, after a second or more once. Numbers stay numbers that
-            `with_parameters` changes; which of them are zero or one, and which points of a body coincide, is in the code, and
-            where that changes, the code is compiled again automatically. Laws of the user must be numbers, expressions of SymPy,
-            tables, or functions that can be recorded: ``print(m)`` has those that cannot. Without a compiler equations are
+            some three times faster for small mechanisms, after a second or more once. `with_parameters` can still change all
+            numbers; the code depends on which of them are zero or one and on which points of a body coincide, and is
+            compiled again automatically if that changes. User functions must be numbers, expressions of SymPy,
+            tables, or functions that can be recorded: ``print(m)`` lists those that cannot. Without a compiler equations are
             evaluated as with None, with a `NoCompilerWarning`.
-            In space joint coordinates are written out completely. Of absolute ones only closed-form functions are, up to some
-            four bodies; all other terms keep the tables. Loops with redundant rows, such as those of full hinges, have no
-            closed-form functions in either.
+            In space joint coordinates are written out completely. For absolute ones only closed-form functions are, up to
+            some four bodies; all other terms keep the tables. Loops with redundant constraints, such as those of full hinges,
+            have no closed-form functions in either.
 
         Returns
         -------
@@ -157,8 +157,8 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, ContactVerbs, 
         Parameters
         ----------
         changes : dict of path to float
-            Such as ``{"crank.mass": 2.0}``. What follows from a number, as a link's inertia does from its length, changes with
-            it, unless it was given.
+            Such as ``{"crank.mass": 2.0}``. Quantities that follow from a number, as a link's inertia from its length, change
+            with it unless they were given.
         **changed
             The mechanism's own parameters by name.
 
@@ -183,13 +183,13 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, ContactVerbs, 
         return self.system().with_parameters(changes, **changed)
 
     def lifted(self) -> Mechanism:
-        """The same mechanism in space, in the plane z = 0 and free to be added to there.
+        """The same mechanism in space, in the plane z = 0; elements in space can be added to it.
 
         Axes of hinges are along z. A revolute that holds a particle becomes a ball. Where no joint keeps a body in the plane, one
         is added, ``"wheel in its plane"``, a `planar` or, for a particle, a `coupler`. Moments of inertia are those of the plane
         about z, and half as much about x and y, so that motions in the plane are the same. They are given: a link's inertia does
-        not change with its length. The exception are bushings with torsion beyond half a turn: in the plane they count the angle
-        on, in space they do not.
+        not change with its length. Bushings with torsion are an exception beyond half a turn: their angle goes on counting in the
+        plane, and does not in space.
 
         Returns
         -------
@@ -200,7 +200,8 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, ContactVerbs, 
         Raises
         ------
         ValueError
-            In space; and where something is not there in space, or depends on the angle of a body, which is named.
+            If the mechanism is in space already, or an element is not available in space or depends on the angle of a
+            body; it is named.
 
         Examples
         --------
@@ -219,7 +220,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, ContactVerbs, 
         return made
 
     def remove(self, name: str | Any) -> None:
-        """Remove an element; values of the start that belong to it go, too, and the geared rotor of a motor.
+        """Remove an element, with the start values that belong to it, and with the geared rotor of a motor.
 
         Parameters
         ----------
@@ -343,7 +344,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, ContactVerbs, 
         return self.system().measures
 
     def save(self, path: str | Path) -> Path:
-        """Write the mechanism to a JSON file, which `zerodrift.load` reads; to the last bit the same, and no pickle.
+        """Write the mechanism to a JSON file, without pickle, which `zerodrift.load` reads to the last bit.
 
         Points, axes and directions are written in the frames of their bodies, lengths, masses and angles as they
         were given; SymPy expressions as lists of operations.
@@ -361,7 +362,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, ContactVerbs, 
         Raises
         ------
         ValueError
-            If a function that cannot be recorded is in it, which is named with the reason.
+            If it contains a function that cannot be recorded, which is named with the reason.
 
         Examples
         --------

@@ -150,15 +150,15 @@ def explore(system: SystemLike | Callable[..., SystemLike], parameters: Mapping[
     Parameters
     ----------
     system : system, Mechanism or callable
-        A callable receives the parameters by name and returns a system or a Mechanism: so lengths are varied, as by
+        A callable receives the parameters by name and returns a system or a Mechanism: it can vary lengths, as in
         ``zd.explore(zd.models.hoecken, {"coupler": (2.0, 3.0)})``.
     parameters : dict of str to (float, float)
         Range of each slider: names are those of `with_parameters`, or arguments of the callable. It starts at the system's own
         value, if that is within the range, otherwise in the middle.
     t_span : float or (float, float)
-        As of `simulate`.
+        As in `simulate`.
     display : dict of str to str, optional
-        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
+        Units by quantity, as in `zerodrift.display_units`; left out: those of the session.
     **options
         ``forces``, ``path``, ``graphs``, ``names`` and ``speed`` are those of `view`; all others are those of `simulate`.
 

@@ -34,7 +34,7 @@ class View(Page):
     Attributes
     ----------
     page : str
-        The HTML page, with everything that it needs.
+        The complete HTML page.
     """
 
     name = "film.html"
@@ -154,16 +154,16 @@ def view(*solutions: Solution | Mechanism, forces: bool | Sequence[Any] = False,
     """Film of one motion, or of several over each other, for notebooks and browsers.
 
     Play, pause and step with the space bar and the arrow keys; the slider is the time. Below it are the position violation and
-    the energy error of the run. A click on a part shows its name and, of joints and force elements, force and torque (of up to
-    200); ``n`` chooses the next part. In space, drag or Shift with the arrow keys turns; the wheel with Ctrl, ``+`` and ``-``
-    zoom. What goes far is followed, over a grid at rest.
+    the energy error of the run. A click on a part shows its name and, for up to 200 joints and force elements, force and
+    torque; ``n`` chooses the next part. In space, drag or Shift with the arrow keys turns; the wheel with Ctrl, ``+`` and
+    ``-`` zoom. The view follows a mechanism that travels far, over a grid at rest.
 
     Parameters
     ----------
     *solutions : Solution
         At least one. Several are drawn over each other, in colours of their own: a drifting and a corrected run, for example.
     forces : bool, or sequence of str or element
-        Reactions and forces that are drawn as arrows, to one scale that is given in the film; True: all of them.
+        Reactions and forces to draw as arrows, in one scale, which the film shows; True: all of them.
     path : point or name, or a list of these
         Points whose paths are drawn.
     graphs : str, measure, or sequence of these
@@ -171,20 +171,21 @@ def view(*solutions: Solution | Mechanism, forces: bool | Sequence[Any] = False,
     names : bool
         Names of parts.
     speed : float, optional
-        Seconds of the motion in a second of the film. Left out: 1 for motions of 3 to 15 s, and as much more or less for others.
+        Seconds of the motion in a second of the film. Left out: 1 for motions of 3 to 15 s; faster for longer and slower for
+        shorter ones.
     labels : sequence of str, optional
         Names of the solutions.
     live : bool
-        True: instead of solutions a mechanism is given, which the page simulates itself, by the core in WebAssembly; graphs are
-        then of measures, and labels are left out. Points are dragged by a spring from the pointer, in space parallel to the
-        screen, and sliders change parameters and motors; what cannot close is refused with a sentence. The core is compiled
-        once, by the package ziglang (the extra ``web``).
+        True: the argument is a mechanism instead of solutions, which the page itself simulates, by the core in WebAssembly;
+        graphs are then of measures, and labels are left out. Points are dragged by a spring from the pointer, in space parallel
+        to the screen, and sliders change parameters and motors; values with which loops cannot close are refused with a
+        message. The core is compiled once, by the package ziglang (the extra ``web``).
     sliders : dict of (float, float), optional
         With ``live=True``: parameters and motors of the mechanism, with smallest and largest values, such as
         ``{"rod.length": (0.8, 1.2), "drive.speed": (0, 10)}``. By default some lengths, a spring, a mass,
         gravity, and all motors.
     display : dict of str to str, optional
-        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
+        Units by quantity, as in `zerodrift.display_units`; left out: those of the session.
 
     Returns
     -------
@@ -196,7 +197,7 @@ def view(*solutions: Solution | Mechanism, forces: bool | Sequence[Any] = False,
     ValueError
         If a system has no drawing, or systems of the plane and of space are given together.
     TypeError
-        If something else than a solution is given, or arguments exclude each other.
+        If anything other than a solution is given, or arguments exclude each other.
 
     Examples
     --------

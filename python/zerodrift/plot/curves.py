@@ -37,7 +37,7 @@ def motion(sol: Solution, names: str | Sequence[str] | None = None, ax: Axes | N
     ax : Axes, optional
         Axes to draw into; by default those of a new figure.
     display : dict of str to str, optional
-        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
+        Units by quantity, as in `zerodrift.display_units`; left out: those of the session.
     **style
         Further arguments of ``ax.plot``.
 
@@ -89,7 +89,7 @@ def measures(sol: Solution, names: Names, ax: Axes | None = None, *, display: Di
     ax : Axes, optional
         Axes to draw into; by default those of a new figure.
     display : dict of str to str, optional
-        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
+        Units by quantity, as in `zerodrift.display_units`; left out: those of the session.
     **style
         Further arguments of ``ax.plot``.
 
@@ -130,7 +130,7 @@ def violation(sol: Solution, ax: Axes | None = None, *, positions: bool = True, 
     positions, velocities : bool
         Violations to draw.
     display : dict of str to str, optional
-        Units of the time by quantity, as of `zerodrift.display_units`; left out: those of the session.
+        Units of the time by quantity, as in `zerodrift.display_units`; left out: those of the session.
     **style
         Further arguments of ``ax.plot``.
 
@@ -169,7 +169,7 @@ def violation(sol: Solution, ax: Axes | None = None, *, positions: bool = True, 
 
 @units.displayed
 def energy(sol: Solution, ax: Axes | None = None, *, display: Display | None = None) -> Axes:
-    """Draw kinetic and potential energy, their sum, and the energy put in, if any was.
+    """Draw kinetic and potential energy, their sum, and the energy input, if any.
 
     Parameters
     ----------
@@ -178,7 +178,7 @@ def energy(sol: Solution, ax: Axes | None = None, *, display: Display | None = N
     ax : Axes, optional
         Axes to draw into; by default those of a new figure.
     display : dict of str to str, optional
-        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
+        Units by quantity, as in `zerodrift.display_units`; left out: those of the session.
 
     Returns
     -------
@@ -218,10 +218,10 @@ def energy_violation(sol: Solution | Sequence[Solution], ax: Axes | None = None,
     ax : Axes, optional
         Axes to draw into; by default those of a new figure.
     log : bool, optional
-        True: draw its magnitude on a logarithmic scale, exact zeros as triangles on the lower edge. Left out: where the largest
-        magnitudes of several runs differ by more than a factor of 100.
+        True: draw its magnitude on a logarithmic scale, exact zeros as triangles on the lower edge. Left out: True if the
+        largest magnitudes of several runs differ by more than a factor of 100.
     display : dict of str to str, optional
-        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
+        Units by quantity, as in `zerodrift.display_units`; left out: those of the session.
     **style
         For ``ax.plot``; a label adds a legend.
 
@@ -274,7 +274,7 @@ def error(sol: Solution, reference: Solution | Reference | Callable[[float], Any
     log : bool
         True: draw magnitudes on a logarithmic scale, exact zeros as triangles on the lower edge.
     display : dict of str to str, optional
-        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
+        Units by quantity, as in `zerodrift.display_units`; left out: those of the session.
     **style
         Further arguments of ``ax.plot``.
 

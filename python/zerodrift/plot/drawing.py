@@ -38,9 +38,9 @@ def mechanism(system_or_solution: SystemLike | Solution, p: ArrayLike | None = N
 
     Mechanisms are drawn with the symbols of textbooks: bars and plates with pins, hatched ground, sliders on rails, blocks in
     grooves, springs, dashpots, wheels, pitch circles of gears, profiles of cams, motors and loads as arrows. In space, bodies
-    are bars, plates, discs, or boxes of their inertia, and joint axes short lines; the mouse turns the view, in notebooks with
-    ``%matplotlib widget``. Other systems are drawn from their points: in the plane, lines between points are links, and points
-    that do not move are on the ground; in space they are lines.
+    are bars, plates, discs, or boxes of the same inertia, and joint axes are short lines; the mouse turns the view, in
+    notebooks with ``%matplotlib widget``. Other systems are drawn from their points: in the plane, lines between points are
+    links, and points that do not move are on the ground; in space they are lines.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def mechanism(system_or_solution: SystemLike | Solution, p: ArrayLike | None = N
         Number of other positions to draw faintly, evenly over the run, or their times in s. By default eight, or none if `p`
         or `t` is given.
     names : bool
-        True: write the names of bodies, joints, points, springs and drives of a mechanism.
+        True: label bodies, joints, points, springs and drives of a mechanism with their names.
     path : str, point or measure, or a sequence of them
         Points of a mechanism whose paths over the solution are drawn, such as ``"F"`` or ``rod.end``.
     forces : bool or sequence of str
@@ -146,7 +146,7 @@ def path(sol: Solution, points: Points, ax: Axes | None = None, **style: Any) ->
     KeyError
         If there is no such point.
     ValueError
-        For a measure that is not a position, and for flat axes and a mechanism in space.
+        For a measure that is not a position, and for plane axes with a mechanism in space.
 
     Examples
     --------

@@ -24,9 +24,9 @@ CROSS: dict[str, Any] = {"color": "#B22222", "markersize": 3, "markeredgewidth":
 @units.displayed
 def bands(ens: Ensemble, name: MeasureLike, quantiles: Sequence[float] = QUANTILES, ax: Axes | None = None, *,
           display: Display | None = None, **style: Any) -> Axes:
-    """Draw how an output spreads over time: areas between quantiles of all runs, and a line at the middle one.
+    """Draw the spread of an output over time: areas between quantiles of all runs, and a line at the middle one.
 
-    Runs count as long as they have rows.
+    Runs count as long as they have samples.
 
     Parameters
     ----------
@@ -40,9 +40,9 @@ def bands(ens: Ensemble, name: MeasureLike, quantiles: Sequence[float] = QUANTIL
     ax : Axes, optional
         Left out: a new figure.
     display : dict of str to str, optional
-        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
+        Units by quantity, as in `zerodrift.display_units`; left out: those of the session.
     **style
-        For ``ax.plot`` of the line; ``color`` is that of the areas, too, and ``label`` stands for all of it.
+        For ``ax.plot`` of the line; ``color`` is that of the areas, too, and ``label`` names all of them.
 
     Returns
     -------
@@ -51,7 +51,7 @@ def bands(ens: Ensemble, name: MeasureLike, quantiles: Sequence[float] = QUANTIL
     Raises
     ------
     KeyError
-        If nothing of that name was kept.
+        If no output of that name was kept.
     ValueError
         If runs have times of their own, or the output is a vector.
 
@@ -106,7 +106,7 @@ def against(ens: Ensemble, parameter: str, of: MeasureLike | ArrayLike | None = 
     color_by : str, optional
         Another parameter, which colours the points.
     display : dict of str to str, optional
-        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
+        Units by quantity, as in `zerodrift.display_units`; left out: those of the session.
     **style
         For ``ax.scatter``; ``label`` names a number of each run on the axis.
 
@@ -140,7 +140,7 @@ def against(ens: Ensemble, parameter: str, of: MeasureLike | ArrayLike | None = 
 @units.displayed
 def heat_map(ens: Ensemble, of: MeasureLike | ArrayLike | None = None, ax: Axes | None = None, *, at: float | None = None,
              display: Display | None = None, **style: Any) -> Axes:
-    """Draw what each run comes to over a grid of two parameters, as colours; runs that failed are crossed out.
+    """Draw a result of each run over a grid of two parameters, as colours; runs that failed are crossed out.
 
     Parameters
     ----------
@@ -153,7 +153,7 @@ def heat_map(ens: Ensemble, of: MeasureLike | ArrayLike | None = None, ax: Axes 
     at : float, optional
         The time in s at which an output is taken; left out: the last row of each run.
     display : dict of str to str, optional
-        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
+        Units by quantity, as in `zerodrift.display_units`; left out: those of the session.
     **style
         For ``ax.pcolormesh``; ``label`` names a number of each run beside the colours.
 
@@ -164,7 +164,7 @@ def heat_map(ens: Ensemble, of: MeasureLike | ArrayLike | None = None, ax: Axes 
     Raises
     ------
     ValueError
-        If the ensemble is over no such grid.
+        If the ensemble is not over such a grid.
 
     Examples
     --------

@@ -24,7 +24,7 @@ HALF = 0.3              # half the height of a bar, in lanes
 
 @displayed
 def phases(sol: Solution, ax: Axes | None = None, *, display: Display | None = None) -> Axes:
-    """Draw which contacts, stops and joints are closed, sticking, sliding, or open over time, and their impacts.
+    """Draw the states of contacts, stops and joints over time: closed, sticking, sliding or open; and their impacts.
 
     Each has a lane: a bar while it is closed, joined, sticking or sliding, a thin line while it is open or released, and a
     triangle at each impact.
@@ -36,7 +36,7 @@ def phases(sol: Solution, ax: Axes | None = None, *, display: Display | None = N
     ax : Axes, optional
         Axes to draw into; by default those of a new figure.
     display : dict of str to str, optional
-        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
+        Units by quantity, as in `zerodrift.display_units`; left out: those of the session.
 
     Returns
     -------
@@ -45,7 +45,7 @@ def phases(sol: Solution, ax: Axes | None = None, *, display: Display | None = N
     Raises
     ------
     ValueError
-        If nothing in the system switches.
+        If no element of the system switches.
 
     Examples
     --------

@@ -33,7 +33,7 @@ def polar(sol: Solution, name: MeasureLike | tuple[MeasureLike, Any], ax: Axes |
     plane : {"xy", "yz", "zx", ...}
         In space: the components that are drawn to the right and upwards.
     display : dict of str to str, optional
-        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
+        Units by quantity, as in `zerodrift.display_units`; left out: those of the session.
     **style
         For ``ax.plot``.
 

@@ -31,9 +31,9 @@ LARGEST_ERROR = 1e30        # larger ones are not drawn, as no scale shows them 
 def work_precision(result: WorkPrecision, ax: Axes | None = None, *, display: Display | None = None) -> Axes:
     """Draw error over time, on logarithmic scales: one line per method, and the Pareto front.
 
-    Each integrator has a colour of its own in all such pictures, and is dashed where it chooses its steps; the marker is that of
-    the formulation and the corrections. Runs that failed are not there, nor those with an error of 1e30 and more; below the
-    dotted line, errors are those of the reference.
+    Each integrator has a colour of its own in all such pictures, and is dashed with adaptive steps; the marker is that of the
+    formulation and the corrections. Failed runs and those with an error of 1e30 or more are omitted; below the dotted line,
+    errors are those of the reference.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def work_precision(result: WorkPrecision, ax: Axes | None = None, *, display: Di
     ax : Axes, optional
         Axes to draw into; by default those of a new figure.
     display : dict of str to str, optional
-        Unit of the time, as of `zerodrift.display_units`; left out: that of the session, otherwise ms.
+        Unit of the time, as in `zerodrift.display_units`; left out: that of the session, otherwise ms.
 
     Returns
     -------
@@ -82,18 +82,18 @@ def work_precision(result: WorkPrecision, ax: Axes | None = None, *, display: Di
 
 @units.displayed
 def stability_map(result: StabilityMap, axes: Sequence[Axes] | None = None, *, display: Display | None = None) -> np.ndarray:
-    """Draw the errors of all runs over step and parameter, one panel per way to simulate.
+    """Draw the errors of all runs over step and parameter, one panel per method.
 
-    Runs that did not reach their end are crossed out; errors beyond one are as bad as that.
+    Runs that did not reach their end are crossed out; errors above 1 have the colour of 1.
 
     Parameters
     ----------
     result : StabilityMap
         Result of `zerodrift.stability_map`.
     axes : sequence of Axes, optional
-        One per way, of one figure; left out: a new figure.
+        One per method, of one figure; left out: a new figure.
     display : dict of str to str, optional
-        Units of the step, and of a parameter whose name ends with its unit, as "mass [kg]"; as of `zerodrift.display_units`.
+        Units of the step, and of a parameter whose name ends with its unit, as "mass [kg]"; as in `zerodrift.display_units`.
 
     Returns
     -------

@@ -25,7 +25,7 @@ OTHERS = 8              # positions besides the first
 @units.displayed
 def trace(traced: Trace, names: Names, ax: Axes | None = None, *, degrees: bool = False,
           display: Display | None = None, **style: Any) -> Axes:
-    """Draw measures over the measure that was traced; dead points that were passed are circles.
+    """Draw measures over the traced measure; passed dead points are circles.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ def trace(traced: Trace, names: Names, ax: Axes | None = None, *, degrees: bool 
     degrees : bool
         True: draw angles in degrees.
     display : dict of str to str, optional
-        Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
+        Units by quantity, as in `zerodrift.display_units`; left out: those of the session.
     **style
         For ``ax.plot``.
 
@@ -96,7 +96,7 @@ def positions(traced: Trace, at: ArrayLike | None = None, ax: Axes | None = None
     ax : Axes, optional
         Left out: a new figure.
     names : bool
-        True: write the names of the parts.
+        True: label the parts with their names.
     path : str, point or measure, or a sequence of them
         Points whose paths through all traced positions are drawn.
 
@@ -107,7 +107,7 @@ def positions(traced: Trace, at: ArrayLike | None = None, ax: Axes | None = None
     Raises
     ------
     IndexError
-        If there are not so many positions.
+        If there are fewer positions.
     KeyError
         If there is no such point.
 

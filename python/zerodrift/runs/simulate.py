@@ -52,26 +52,26 @@ def simulate(
     Parameters
     ----------
     system : system
-        A `Mechanism`, one of `zerodrift.systems`, a `zerodrift.System`, or what `zerodrift.symbolic` returns.
+        A `Mechanism`, one of `zerodrift.systems`, a `zerodrift.System`, or a result of `zerodrift.symbolic`.
     t_span : float or (float, float)
         End time, or start and end, in s.
     p0, v0 : array_like (nq,), (nv,), optional
         Initial coordinates and velocities; by default those of the system. They must satisfy the constraints, see `assemble`.
-        As p0, a result of `equilibrium` is accepted, too.
+        p0 may also be a result of `equilibrium`.
     step : float, optional
         Size of fixed steps in s. If the span is not a whole number of steps, the last one is shorter. Without it, steps are
-        adaptive: the integrator chooses them by its error estimate with `rtol` and `atol`, and they end where laws jump: at
-        times, and where a comparison of the motion changes.
+        adaptive: the integrator chooses them by its error estimate with `rtol` and `atol`, and ends them where laws jump:
+        at known times, and where a comparison in a law changes.
     t_eval : array_like (k,), optional
         Output times in s, increasing. Left out: the times of the steps; adaptive steps are long, and maxima of forces may lie
         between them. With adaptive steps, values at output times are from the method's dense output where it has one, otherwise
         from a shorter step. All values satisfy the constraints.
     events : callable, Event or measure, or a list of these, optional
-        Functions ``event(t, p, v) -> float``. If one changes its sign within a step, its zero is located to the rounding of t,
-        and the state there is reported in `Solution.t_events`, `p_events` and `v_events`; it satisfies the constraints. At a
-        discontinuity the state after the jump is reported. A zero at the start is not an event. The attribute
-        `direction` = 1 or -1 selects zeros with increasing or decreasing values; `terminal` = True or a count ends the
-        run at the first or at that occurrence, with a step to the zero.
+        Functions ``event(t, p, v) -> float``. If one changes sign within a step, its zero is located to the rounding of t, and
+        the state there is reported in `Solution.t_events`, `p_events` and `v_events`; it satisfies the constraints. At a
+        discontinuity the state after the jump is reported. Zeros at the initial time are ignored. The attribute `direction` =
+        1 or -1 selects zeros with increasing or decreasing values; `terminal` = True or a count ends the run at the first or
+        at that occurrence, by a step that ends at the zero.
     outputs : list of measures or names, optional
         Measures to record with every sample, such as ``["C.force", crank.angle]``, from the accelerations and multipliers of
         the run. ``sol[name]`` then reads the record, and `Solution.save` includes it. Measures that are not recorded are
@@ -86,17 +86,16 @@ def simulate(
         must be at most 1, `atol` has the units of y. The error of the motion accumulates over the steps and is larger than these;
         `zerodrift.tune` finds settings for a given error of the motion.
     first_step, max_step : float, optional
-        Adaptive steps: size of the first step, and largest size, in s. An action that is shorter than a step may be missed, as of
-        a function that Python calls, at whose jumps steps do not end; set `max_step` to its duration or less.
+        Adaptive steps: size of the first step, and largest size, in s. An action shorter than a step may be missed, such as one
+        of a function that Python calls, at whose jumps steps do not end; set `max_step` to its duration or less.
     max_move : float, optional
         Adaptive steps: largest change of any coordinate in a step, in m or rad; with formulation "independent", of the
         coordinates that it integrates. A force that acts in a narrow region, such as a thin wall, may be missed without
         notice; set `max_move` to a third of its width or less.
     max_steps : int or None
-        Adaptive steps: number of steps after which the run fails, with a message on the times at which most were taken. It fails
-        after 50 already that get nowhere, and where a law jumps back as soon as it has jumped, as friction that is the sign of a
-        speed does at rest: `StepFailed` with the code "step-collapse".
-        None: unlimited. Fixed steps are not limited.
+        Adaptive steps: number of steps after which the run fails, with a message that names the times at which most were taken.
+        It fails after only 50 steps without progress, and where a law jumps back as soon as it has jumped, as friction by the
+        sign of a speed does at rest: `StepFailed` with the code "step-collapse". None: unlimited. Fixed steps are not limited.
     formulation : str or settings, optional
         Equations of motion to solve: a name in `formulations()`, or ``formulations()[name].settings(...)``. By default "schur";
         "augmented" for a mechanism with bodies without mass or inertia whose mass matrix is singular at the start.
@@ -114,10 +113,10 @@ def simulate(
     progress : bool or callable
         True: show a progress bar (needs tqdm). A callable receives the completed fraction, 0 ... 1, about 30 times a second.
     save_to : str or Path, optional
-        File to which samples are written during the run, for records larger than memory: an array with a structured type,
-        which any NumPy opens, with the suffix ``.npy``, which is added if it is missing, and its description with ``.json``.
-        The arrays of the solution, and those of `load`, are then mapped from the file. A killed run leaves the samples
-        written so far. An older file of the same name is replaced at the start, unless another run is writing it.
+        File to which samples are written during the run, for records larger than memory: a structured array of NumPy with
+        the suffix ``.npy``, which is added if it is missing, and its description with the suffix ``.json``. The arrays of
+        the solution, and those of `load`, are then mapped from the file. A killed run leaves the samples written so far. An
+        older file of the same name is replaced at the start, unless another run is writing it.
     on_singular : {"stop", "continue"}
         Behaviour when the motion reaches a bifurcation, at the end of a step or within it. A bifurcation is a position in
         which constraints that are independent elsewhere become dependent and no longer determine the motion, as in a
@@ -137,7 +136,7 @@ def simulate(
         constraints that are not redundant; with formulation "independent" also ``pdot = v`` and constraints that are all
         holonomic or all nonholonomic; with "mixed" and "independent" a system without its own complement `D`. A step whose
         elimination is inaccurate is repeated with the matrices of the formulation; so is, with "mixed" and "independent", a
-        step after which other velocities become independent, or a set of them without generated code (at most four have it).
+        step after which the set of independent velocities changes, or has no generated code (at most four sets have it).
         `repr` of the solution gives the number of steps by matrices, or the reason if all were. False: matrices in all steps.
     vector : {"baseline", "avx2", "avx512"}, optional
         Vector unit for closed-form functions. By default the value of the environment variable ZERODRIFT_VECTOR, else the
@@ -147,10 +146,10 @@ def simulate(
         For a run that fails or is interrupted: "raise" raises an error with the partial solution as its attribute `solution`;
         "return" returns that solution, with `success` False.
     inputs : sequence of str or measures, or dict, optional
-        Numbers that `control` sets, as of `Run`. The solution has their values over time by name.
+        Numbers that `control` sets, as in `Run`. The solution has their values over time by name.
     hold, ramp : bool, and float or None
-        As of `Run`: True makes the jump of a speed an impulse; time in s over which a speed is followed in adaptive steps. The
-        solution has the impulses since the sample before and their works, by ``sol["drive.impulse"]`` in N m s or N s, and
+        As in `Run`: True makes the jump of a speed an impulse; time in s over which a speed is followed in adaptive steps. The
+        solution has the impulses since the previous sample, ``sol["drive.impulse"]`` in N m s or N s, and their work,
         ``sol["drive.impulse_work"]`` in J.
     control : Every, or list of these, optional
         Controllers, see `every`: each is called with the run at exact multiples of its period, and sets inputs.
@@ -181,11 +180,12 @@ def simulate(
     CostWarning
         Before the run: if the record takes more than half of the free memory, or if a mechanism with many joint coordinates
         would take some ten seconds, and less than a tenth of that in absolute coordinates. During the run: if functions that
-        are called, as they cannot be recorded, have taken 3 s.
+        are called because they cannot be recorded have taken 3 s.
     DrawingWarning
         Before the run: if a mechanism starts from its drawing, and a joint is drawn open by more than a hundredth of its size.
-        Not for a sketch, in which a dimension of a loop with that joint is given, such as ``length=`` of a link or a radius, or
-        a coordinate of it is held, wished or driven. Also if the joints do not close where a driven coordinate is drawn.
+        Not for a sketch, where a dimension of a loop with that joint is given, such as ``length=`` of a link or a radius, or a
+        coordinate of the loop is held, wished or driven. Also if the joints do not close at the drawn value of a driven
+        coordinate.
     AccuracyWarning
         If the error of the energy balance exceeds 0.5 % of the largest kinetic energy, or a single correction removed more
         than 2 % of it: the result satisfies the constraints, but is not the motion. Only for systems with a potential.

@@ -46,9 +46,9 @@ def reference(
     which needs fewer steps.
 
     If that is not enough, and without `error`, the motion is computed in double-double arithmetic, by Taylor's method with
-    projection. It must lie within what is certified in double precision, and is compared with a run of higher order and shorter
+    projection. It must lie within the error certified in double precision, and is compared with a run of higher order and shorter
     steps, and with one whose start and numbers are perturbed: five times the root of the sum of squares is certified. Values
-    between samples, measures and times of events then are known beyond double precision, too: `Reference.at`, `Reference.measure`
+    between samples, measures and times of events are then known beyond double precision, too: `Reference.at`, `Reference.measure`
     and `Reference.events`.
 
     Parameters
@@ -77,13 +77,13 @@ def reference(
 
     precision : {"double", "double-double"}, optional
         Arithmetic of the motion. By default double-double (106 bits) where the system has it and `error`, or the smallest error
-        that can be certified, asks for it: built-in systems, and compiled ones of expressions that are smooth. The motion then is
+        that can be certified, requires it: built-in systems, and compiled ones of expressions that are smooth. The motion is then
         ``ref.p + ref.p_low``, ``ref.v + ref.v_low``, and errors of 1e-20 and less are certified.
 
     Returns
     -------
     Reference
-        For any argument `reference`. Its `caveats` list the sources of error that are not excluded.
+        For an argument `reference` of other functions. Its `caveats` list the sources of error that are not excluded.
 
     Raises
     ------

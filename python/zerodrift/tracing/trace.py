@@ -21,7 +21,7 @@ from .trace_result import DeadPoint, Reach, Trace
 
 def trace(system: SystemLike, measure: MeasureLike, values: ArrayLike | None = None, *, hold: Values | Measures = (),
           through: bool = False, count: int = 361, forces: bool | Measures = False) -> Trace:
-    """The positions of a mechanism at given values of a measure, such as the angles of its crank; without time.
+    """Positions of a mechanism at given values of a measure, such as the angles of its crank; without time.
 
     All positions lie on the branch on which the mechanism starts, as drawn or as `start` says: it is followed in small steps.
     Motors and actuators that prescribe a motion are left out, as the measure takes their place.
@@ -29,23 +29,23 @@ def trace(system: SystemLike, measure: MeasureLike, values: ArrayLike | None = N
     Parameters
     ----------
     system : Mechanism or its system
-        In the plane; mechanisms in space are refused. Besides what is held it has one freedom.
+        In the plane; mechanisms in space are refused. With the held measures it must have one freedom.
     measure : measure or str
         A scalar measure of positions: ``crank.angle``, ``"slide.displacement"``, ``"P.position.x"``.
     values : array_like (k,), optional
-        In rad or m, in any order. Left out: `count` positions over a full turn of an angle that turns fully; of everything else,
-        from the start through all dead points until the mechanism is back, evenly along the way.
+        In rad or m, in any order. Left out: `count` positions over a full turn of an angle that turns fully; for other measures,
+        from the start through all dead points until the mechanism is back, evenly along its path.
     hold : dict of measure to value, or measures, optional
-        Measures that stay at the given value, or at that of the start: one for each freedom more than one.
+        Measures that stay at the given value, or at that of the start: one for each freedom beyond the first.
     through : bool
         True: the direction of travel never reverses: where values turn, the trace continues through the next dead point, and
         the values after it are on the branch beyond it. False: all values lie between the same two dead points.
     count : int
-        Number of positions where values are left out, besides dead points.
+        Number of positions if values are left out, in addition to dead points.
     forces : bool or measures
-        True: the trace has the forces of a mechanism at rest in each position, too: ``trace["pin.force"]``, and as
-        ``trace["effort"]`` the one along `measure` that holds it there, in N or N m. Measures, such as ``"cylinder.length"``:
-        efforts along these hold it, of which ``trace["effort"]`` is the first.
+        True: the trace also has the forces of the mechanism at rest in each position, ``trace["pin.force"]``, and the effort
+        along `measure` that holds it there, ``trace["effort"]`` in N or N m. Measures, such as ``"cylinder.length"``: efforts
+        along these hold it; ``trace["effort"]`` is the first.
 
     Returns
     -------
@@ -54,15 +54,15 @@ def trace(system: SystemLike, measure: MeasureLike, values: ArrayLike | None = N
     Raises
     ------
     ValueError
-        If there is no such measure; if a value is out of reach, which says where the dead point is; if values turn back where no
+        If there is no such measure; if a value is out of reach, with the dead point in the message; if values turn back where no
         dead point follows.
     SingularSystem
-        If the mechanism has another number of freedoms than one; the error says what to hold.
+        If the mechanism does not have one freedom; the message names measures to hold.
 
     Notes
     -----
-    A dead point is where a measure turns back while the mechanism goes on: of a crank, the positions in which the links behind it
-    are in one line. `trace` steps along the arc of all coordinates, for which dead points are points as others are.
+    A dead point is a position in which a measure turns back while the mechanism continues to move: for a crank, one in which the
+    links after it are in one line. `trace` steps along the arc of all coordinates, on which dead points are ordinary points.
 
     References
     ----------
@@ -102,7 +102,7 @@ def reach(system: SystemLike, measure: MeasureLike, *, hold: Values | Measures =
     ----------
     system : Mechanism or its system
     measure : measure or str
-        As `zerodrift.trace` takes it: the angle of a crank, most of all.
+        As in `zerodrift.trace`, such as the angle of a crank.
     hold : dict of measure to value, or measures, optional
         As there.
 

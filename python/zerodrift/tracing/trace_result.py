@@ -42,17 +42,17 @@ class Trace:
     system : system
         System of the mechanism, with its coordinates.
     measure, unit : str
-        By what it was traced, and "rad" or "m".
+        Name of the traced measure, and "rad" or "m".
     values : ndarray (k,)
         Values of that measure.
     p : ndarray (k, nq)
         The positions, in the coordinates of `system`.
     slopes : ndarray (k, nq)
-        Their derivatives by the measure; infinite at dead points.
+        Their derivatives with respect to the measure; infinite at dead points.
     dead_points : tuple of DeadPoint
-        Dead points that were passed, in order.
+        Passed dead points, in order.
     efforts : Efforts or None
-        Forces of the mechanism at rest in each position, if they were wanted.
+        Forces of the mechanism at rest in each position, if they were requested.
     """
 
     system: MechanismSystem
@@ -115,7 +115,7 @@ class Trace:
         Raises
         ------
         KeyError
-            As of ``trace[name]``.
+            As for ``trace[name]``.
 
         Examples
         --------
@@ -188,7 +188,7 @@ class Reach:
     low, high : float
         Minimum and maximum on the assembly branch; infinite if the measure makes full turns.
     dead_points : tuple of DeadPoint
-        In the order in which they are met when the measure grows from the start; empty if it makes full turns.
+        In the order in which they occur when the measure increases from the start; empty if it makes full turns.
     """
 
     measure: str

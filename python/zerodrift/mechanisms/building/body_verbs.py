@@ -34,15 +34,16 @@ class BodyVerbs(Elements):
         mass : float
             In kg, at least 0.
         inertia : float, in space array_like (3, 3) or (3,)
-            About the centre of mass, in kg m^2, at least 0; `zerodrift.inertia` has it for plain shapes. In space the tensor in
-            the axes of its frame, or its diagonal; products of inertia as they stand in the matrix, which is with the sign that
-            tables of products often leave out.
+            About the centre of mass, in kg m^2, at least 0; `zerodrift.inertia` has it for simple shapes. In space the tensor
+            in the axes of its frame, or its diagonal; products of inertia with the minus sign of the matrix elements, which
+            tables of products often omit.
         at : array_like (2,) or (3,), Point or name
             Position of the origin of its frame in the drawing, in m; left out: the drawing's origin.
         angle : float
             Angle of its frame from the drawing's x axis, counter-clockwise, in rad; in the plane.
         rotation : array_like (3, 3) or (4,)
-            The same in space: a matrix whose columns are the body's axes in the drawing, or a unit quaternion (w, x, y, z).
+            In space, its orientation: a matrix whose columns are the body's axes in the drawing, or a unit quaternion (w,
+            x, y, z).
         com : array_like (2,) or (3,)
             The centre of mass in its frame, in m; left out: its origin.
 
@@ -85,12 +86,12 @@ class BodyVerbs(Elements):
         name : str
             Letters, digits, blanks, ``_`` and ``-``.
         start, end : array_like (2,) or (3,), Point or name
-            In the drawing, in m. Its frame begins at the start, and its x axis goes to the end. In space its z axis is the
-            drawing's z made perpendicular to that, or the drawing's y where they are parallel.
+            In the drawing, in m. The origin of its frame is the start, and its x axis points to the end. In space its z
+            axis is the part of the drawing's z perpendicular to x, or of the drawing's y where z and x are parallel.
         mass : float
             In kg, at least 0.
         length : float, optional
-            In m, from the start; left out: as drawn. The drawing may be a sketch: lengths count.
+            In m, from the start; left out: as drawn. A given length overrides the drawing.
         inertia : float, in space array_like (3, 3) or (3,), optional
             About the middle, in kg m^2; left out: that of a uniform rod.
         thickness : float, optional
@@ -153,7 +154,7 @@ class BodyVerbs(Elements):
         return SpaceLink(name, start, end, mass, length, rotation, thickness, inertia)
 
     def particle(self, name: str, mass: float, at: ArrayLike | Point) -> Particle:
-        """Add a mass in a point.
+        """Add a point mass.
 
         Parameters
         ----------
@@ -162,8 +163,8 @@ class BodyVerbs(Elements):
         mass : float
             In kg, at least 0.
         at : array_like (2,) or (3,), Point or name
-            Position in the drawing, in m: then the particle is a part of its own. Or a point of a body: then its mass belongs
-            to that body, and it has measures, but no joint.
+            Position in the drawing, in m, of a separate particle; or a point of a body, to which the mass is then added: the
+            particle has measures, but no joint.
 
         Returns
         -------
@@ -190,7 +191,8 @@ class BodyVerbs(Elements):
         return self._add(made(name, checks.vector(f"at of {name!r}", at, self.dimension), mass))
 
     def draw(self, body: Body | str, shape: float | ArrayLike) -> None:
-        """Give a body a shape in pictures, films and live pages, in place of lines between its joints. No motion depends on it.
+        """Give a body a shape in pictures, films and live pages, in place of lines between its joints. The motion does not
+        depend on it.
 
         Parameters
         ----------
@@ -226,7 +228,7 @@ class BodyVerbs(Elements):
         self._shapes[body.name] = corners
 
     def group(self, name: str, bodies: Iterable[Body | str]) -> Group:
-        """Measure bodies together.
+        """Measure bodies as a group.
 
         Parameters
         ----------
@@ -271,7 +273,7 @@ class BodyVerbs(Elements):
         local : array_like (2,) or (3,)
             Its coordinates in the body's frame, in m.
         at : array_like (2,) or (3,), Point or name
-            Instead: where it is in the drawing.
+            Its position in the drawing, instead of `local`.
 
         Returns
         -------

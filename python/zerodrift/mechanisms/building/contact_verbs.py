@@ -33,7 +33,8 @@ class ContactVerbs(Elements):
     def contact(self, name: str, first: Body | Point | str, shape: Line | Circle, *, radius: float = 0.0,
                 restitution: float = 0.0, friction: Friction = 0.0, stiffness: float | None = None, damping: float = 0.0,
                 exponent: float = 1.0) -> Contact:
-        """Let a point or a round body touch a shape of another: it may rest on it, slide, stick, roll, lift off and bounce.
+        """Add a contact of a point or a round body with a shape of another body: it may rest, slide, stick, roll, lift off
+        and bounce.
 
         Parameters
         ----------
@@ -41,17 +42,17 @@ class ContactVerbs(Elements):
         first : Point, Body or name
             The point that touches, or with `radius` the centre of the round body.
         shape : Line or Circle
-            By the body that it belongs to: `Body.line`, free on its left side, `Body.segment`, `Body.circle` or `Body.arc`.
+            Made by its body: `Body.line`, free on its left side, `Body.segment`, `Body.circle` or `Body.arc`.
         radius : float
             Radius of the round body, in m.
         restitution : float
             Coefficient of restitution, 0 to 1.
         friction : float or (float, float)
-            Coefficient of friction; or those of static and of sliding friction.
+            Coefficient of friction; or the coefficients of static and of sliding friction.
         stiffness, damping, exponent : float
-            Law of a compliant one instead, after Hunt and Crossley: its force is
-            ``stiffness * d**exponent * (1 + damping * d')`` for a depth d, at least 0; damping in
-            s/m. It has no restitution and no friction, and its shape no ends.
+            Law of a compliant contact instead, after Hunt and Crossley: its force at a depth d is
+            ``stiffness * d**exponent * (1 + damping * d')``, at least 0; damping in s/m. It has no restitution
+            and no friction, and its shape must have no ends.
 
         Returns
         -------
@@ -99,7 +100,8 @@ class ContactVerbs(Elements):
     def stop(self, name: str, measure: Measure | str, *, lower: float | None = None, upper: float | None = None,
              restitution: float = 0.0, stiffness: float | None = None, damping: float = 0.0,
              exponent: float = 1.0) -> Stop:
-        """Keep a measure within limits: an end stop, a slack rope; of a rate, a one-way clutch or a limit of a speed.
+        """Keep a measure within limits, as an end stop or a slack rope does; or a rate, as a one-way clutch or a
+        speed limit does.
 
         Parameters
         ----------
@@ -109,11 +111,11 @@ class ContactVerbs(Elements):
         lower, upper : float, optional
             Limits, in the unit of the measure; at least one.
         restitution : float
-            Coefficient of restitution, 0 to 1; of a rate 0.
+            Coefficient of restitution, 0 to 1; 0 for a rate.
         stiffness, damping, exponent : float
-            Law of a compliant one instead, after Hunt and Crossley: its effort is
-            ``stiffness * d**exponent * (1 + damping * d')`` for a depth d, at least 0; damping in
-            s/m or s/rad. It has no restitution.
+            Law of a compliant stop instead, after Hunt and Crossley: its effort at a depth d is
+            ``stiffness * d**exponent * (1 + damping * d')``, at least 0; damping in s/m or s/rad.
+            It has no restitution.
 
         Returns
         -------
@@ -164,10 +166,11 @@ class ContactVerbs(Elements):
         ----------
         name : str
         joint : Joint or name
-            Made with ``active=``. It joins as the bodies stand, with a plastic impact (25b), which `Solution.impacts` has.
+            A joint made with ``active=``. It joins the bodies in their current position, with a plastic impact (25b),
+            listed in `Solution.impacts`.
         when, until : measure, text, SymPy expression or Event, optional
-            Quantities: the joint is joined when the first passes through zero upward, released when the second does. In text,
-            the longest name of a measure at a place counts; numbers, + - * / and brackets.
+            Quantities: the joint is joined when the first crosses zero upward, and released when the second does. A text
+            contains names of measures, of which the longest match counts, numbers, + - * / and brackets.
 
         Returns
         -------

@@ -24,7 +24,7 @@ class CouplingVerbs(Elements):
 
     def gear(self, name: str, first: Joint | str, second: Joint | str, *, ratio: float, pressure_angle: float | None = None,
              helix_angle: float = 0.0, radius: float | None = None, backlash: float = 0.0, restitution: float = 0.0) -> Coupling:
-        """Couple two hinges by gears: ``second.angle = ratio * first.angle``, as their joints measure them.
+        """Couple two hinges by gears: ``second.angle = ratio * first.angle``, as measured by their joints.
 
         Parameters
         ----------
@@ -32,19 +32,20 @@ class CouplingVerbs(Elements):
         first, second : Joint or name
             Two revolutes.
         ratio : float
-            Less than 0 for wheels that mesh outside.
+            Negative for external gears.
         pressure_angle : float, optional
             In rad, in the plane of the wheels, such as ``np.radians(20)``. The teeth then act where the pitch circles touch, on
-            two wheels that turn on one body, such as the ground or the carrier of a planet: a tangential force, and a
-            separating force of its size times the tangent, which pushes the teeth apart on either flank. Bearings contain them.
+            two wheels that turn on one body, such as the ground or the carrier of a planet: by a tangential force, and by that
+            times the tangent of this angle, which pushes the wheels apart on either flank. Reactions of bearings include both.
         helix_angle : float
-            In space, in rad: adds an axial force, the tangential one times the tangent. For t = a x (from the first axis to the
-            second), with a the axis of the first joint, it is along a on the second wheel where the tangential one is along t.
+            In space, in rad: adds an axial force, the tangential one times the tangent of this angle. With the axis a of the
+            first joint and t = a x (from the first axis to the second), the axial force on the second wheel is along a if the
+            tangential one is along t.
         radius : float, optional
-            For axes that intersect, of bevel gears: pitch radius of the second wheel, in the middle of its teeth, in m. For
+            For bevel gears, whose axes intersect: pitch radius of the second wheel, in the middle of its teeth, in m. For
             parallel axes the radii follow from their distance and the ratio.
         backlash : float
-            Free play between the flanks in rad of the second angle, which starts in its middle; 0: none.
+            Free play between the flanks, in rad of the second angle, which starts in the middle of it; 0: none.
         restitution : float
             With `backlash`: coefficient of restitution of flanks that meet, 0 to 1.
 
@@ -65,9 +66,9 @@ class CouplingVerbs(Elements):
         -----
         The gear acts along the two angles, between the two bodies of each joint. Its effort is its own measure: ``mesh.torque``,
         in N m, acts on ``second.angle`` and is positive where it drives that angle up; ``-ratio * mesh.torque`` acts on
-        ``first.angle``. `force` and `torque` of the joints leave it out, and the side load of the teeth on the bearings, too,
-        unless `pressure_angle` is given; ``mesh.tooth_force`` is then the tangential force. The motion is the same. The joints
-        that the gear couples bear the separating force alone, also where a wheel has other bearings.
+        ``first.angle``. `force` and `torque` of the joints exclude it, and also the side load of the teeth on the bearings,
+        unless `pressure_angle` is given; ``mesh.tooth_force`` is then the tangential force. The motion is the same. Only the
+        joints that the gear couples bear the separating force, even if a wheel has other bearings.
         """
         return self._linear(name, "gear", (first, ("angle",)), (second, ("angle",)), ratio,
                             self._teeth(name, pressure_angle, helix_angle, radius),
@@ -96,7 +97,7 @@ class CouplingVerbs(Elements):
         ----------
         name : str
         pinion, rack : Joint or name
-            A revolute; a prismatic or a slot.
+            A revolute, and a prismatic or a slot.
         ratio : float
             In m/rad.
 
@@ -118,7 +119,7 @@ class CouplingVerbs(Elements):
         -----
         The teeth act along the two coordinates, between the two bodies of each joint. Their effort is a measure of its own:
         ``teeth.force``, in N, acts on ``rack.displacement`` and is positive where it drives the rack forward;
-        ``-ratio * teeth.force``, in N m, acts on ``pinion.angle``. `force` and `torque` of the joints leave it out, and the side
+        ``-ratio * teeth.force``, in N m, acts on ``pinion.angle``. `force` and `torque` of the joints exclude it, and the side
         load of the teeth on the bearings is not modelled.
         """
         return self._linear(name, "rack_pinion", (pinion, ("angle",)), (rack, ("displacement",)), ratio)
@@ -147,7 +148,7 @@ class CouplingVerbs(Elements):
         return self._add(coupling)
 
     def coupler(self, name: str, value: LawLike | Values, *, of: Bindings | None = None) -> Coupling:
-        """Couple measures of positions by any function of them that has to be zero; the same as `constraint`, said of joints.
+        """Couple measures of positions by a function of them that must be zero; the same as `constraint`, for joints.
 
         Parameters
         ----------
@@ -175,7 +176,7 @@ class CouplingVerbs(Elements):
         The coupler acts along its measures: along the coordinate of a joint between the two bodies of that joint. Its effort is
         its own measure, ``cage.torque`` in N m if all of its measures are angles, else ``cage.force`` in N, for a `value` in m.
         It is positive where it drives `value` up, and acts on each measure times the derivative of `value` with respect to that.
-        `force` and `torque` of joints leave it out, and side loads, as of teeth on bearings, are not modelled.
+        `force` and `torque` of joints exclude it, and side loads, such as those of teeth on bearings, are not modelled.
         """
         name = self._new_name(name, "coupler")
         if isinstance(value, Mapping):
@@ -194,10 +195,10 @@ class CouplingVerbs(Elements):
         cam : Joint or name
             A revolute.
         follower : Joint, measure, or name of one
-            Whose coordinate, or what measure, follows.
+            The measure that follows, or the joint whose coordinate does.
         profile : callable, SymPy expression, or (angles, values)
-            Function of the angle, of any form; in rad or m. A table over one turn becomes a periodic quintic spline; its last
-            point may repeat the first, a turn later.
+            Follower's coordinate in rad or m, as a function of the angle. A table over one turn becomes a periodic quintic
+            spline; its last point may repeat the first, a turn later.
 
         Returns
         -------
@@ -219,7 +220,7 @@ class CouplingVerbs(Elements):
         The cam acts along the two coordinates, between the two bodies of each joint. Its effort is its own measure: on the
         follower, ``cam.force`` in N or, where the follower is an angle, ``cam.torque`` in N m, positive where it drives the
         follower up; on the cam, ``cam.cam_torque`` in N m, positive where it drives the angle up. `force` and `torque` of the
-        joints leave it out, and the side load on guides and bearings is not modelled. A cam pulls, too: its follower does not
+        joints exclude it, and the side load on guides and bearings is not modelled. A cam also pulls: its follower does not
         lift off where the force is negative.
         """
         name = self._new_name(name, "cam")
@@ -241,7 +242,7 @@ class CouplingVerbs(Elements):
         return self._by_law(name, "cam", _Follows(profile), {"angle": Measure(f"{cam.name}.angle"), "follower": follower})
 
     def constraint(self, name: str, value: LawLike | Values, *, of: Bindings | None = None) -> Coupling:
-        """Add a constraint of one's own.
+        """Add a user-defined constraint of positions.
 
         Parameters
         ----------
@@ -266,12 +267,12 @@ class CouplingVerbs(Elements):
 
         Notes
         -----
-        Its effort is a measure, here ``wire.force``, as that of a `coupler`.
+        Its effort is a measure, here ``wire.force``, like that of a `coupler`.
         """
         return self._by_law(self._new_name(name, "constraint"), "constraint", value, of)
 
     def nonholonomic(self, name: str, value: LawLike | Values, *, of: Bindings | None = None) -> Coupling:
-        """Add a nonholonomic constraint of one's own.
+        """Add a user-defined nonholonomic constraint.
 
         Parameters
         ----------
@@ -298,7 +299,8 @@ class CouplingVerbs(Elements):
 
         Notes
         -----
-        Its effort is a measure, here ``blade.force``, as that of a `coupler`: on each velocity it acts times the factor of that.
+        Its effort is a measure, here ``blade.force``, like that of a `coupler`; it acts on each velocity times the factor of
+        that velocity.
         """
         return self._by_law(self._new_name(name, "nonholonomic constraint"), "nonholonomic", value, of)
 

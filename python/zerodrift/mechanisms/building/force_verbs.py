@@ -24,11 +24,11 @@ class ForceVerbs(Elements):
     """Methods of `Mechanism` that add drives, springs and forces.
 
     A callable that gives a force or a motion receives its arguments by name: ``t``, parameters, and the measures that ``of=``
-    binds to names. It is recorded, if possible: its computation becomes a formula that the core evaluates, as that of an
-    expression. Numbers that it reads from outside count as they are when the mechanism's system is made, by `simulate` or
-    `Run`; ``inputs=`` of a run changes numbers within it. A function with state, random numbers, conversions (``int``,
-    ``round``), ``try``, or calls of other libraries is called instead, up to ninety times slower, and can be neither compiled,
-    saved nor exported; ``print(m)`` has the reason.
+    binds to names. It is recorded, if possible: its computation becomes a formula that the core evaluates like an expression.
+    Numbers that it reads from outside keep the values that they have when `simulate` or `Run` makes the mechanism's system;
+    ``inputs=`` changes numbers within a run. A function with state, random numbers, conversions (``int``, ``round``), ``try``,
+    or calls of other libraries is called instead, up to ninety times slower, and cannot be compiled, saved or exported;
+    ``print(m)`` gives the reason.
     """
 
     def motor(self, name: str, joint: Joint | Measure | str, *, angle: LawLike | None = None, displacement: LawLike | None = None,
@@ -40,24 +40,25 @@ class ForceVerbs(Elements):
         ----------
         name : str
         joint : Joint, measure or name
-            With an angle or a displacement; or one of two angles, such as ``universal.angle1``.
+            Joint with an angle or a displacement; or one of two angles, such as ``universal.angle1``.
         angle, displacement : float, callable or SymPy expression of t
-            Prescribed coordinate of the joint, in rad or m, zero as drawn; t counts from 0. Callables are built of NumPy's
+            Prescribed coordinate of the joint, in rad or m, zero in the drawing; t counts from 0. Callables use NumPy's
             functions.
         speed : float, callable or expression
             The rate of that coordinate, in rad/s or m/s: a number, or a function of t, parameters and measures of positions.
         torque, force : float, callable or expression
-            Torque or force on the joint's second body, its opposite on the first, in N m or N; of t, parameters and measures of
-            positions and velocities; and of reactions and accelerations, such as ``"pin.force.x"``. These are solved for
-            together with the accelerations; `NoUniqueMotion` is raised where they have no unique solution.
+            Torque or force on the joint's second body, with the opposite on the first, in N m or N; a function of t, parameters
+            and measures of positions and velocities, and of reactions and accelerations, such as ``"pin.force.x"``. Reactions
+            are solved for together with the accelerations; `NoUniqueMotion` is raised where they have no unique solution.
         of : dict of str to measure
             Measures that the callable receives, by argument name. The joint's own ``angle`` or ``displacement``, and ``speed``,
             need none: ``torque=lambda speed: 3 - 0.1 * speed``.
         rotor : float
             Moment of inertia J of the motor's rotor about the joint's axis in kg m^2: it adds the energy ``J * (a.w1 + ratio *
             q')**2 / 2``, with the axis a, the first body's angular velocity w1, and q the joint's angle or, in space,
-            displacement; an angle of a universal joint has none. The rotor's mass and its transverse inertia are to be part of
-            the first body. It is a body without mass, ``"name rotor"``, that turns about ``"name shaft"`` by ``"name gear"``.
+            displacement; an angle of a universal joint has none. The rotor's mass and its transverse inertia must be included
+            in the first body. It is a body without mass, ``"name rotor"``, that turns about ``"name shaft"`` by
+            ``"name gear"``.
         ratio : float
             Angle of the rotor for q = 1, in rad/rad or rad/m; negative where it turns the other way.
 
@@ -68,8 +69,8 @@ class ForceVerbs(Elements):
         Raises
         ------
         TypeError, ValueError
-            If not one of the five is given, the joint has no such coordinate, another motor prescribes its motion already, or a
-            callable has an argument that is not available.
+            If not exactly one of the five is given, the joint has no such coordinate, another motor prescribes its motion
+            already, or a callable has an argument that is not available.
 
         Examples
         --------
@@ -135,12 +136,13 @@ class ForceVerbs(Elements):
         name : str
         first, second : Point, Particle or name
         length : float, callable or SymPy expression of t
-            The distance of the points, in m; t counts from 0. Callables are built of NumPy's functions.
+            The distance of the points, in m; t counts from 0. Callables use NumPy's functions.
         force : float, callable or expression
-            Force that pushes the points apart, in N; of the same as the torque of `motor`.
+            Force that pushes the points apart, in N; a function of the same as the torque of `motor`.
         of : dict of str to measure
             Measures that the callable receives, by argument name. The actuator's own ``length`` and ``speed`` need none:
-            ``force=lambda length, speed: -100 * (length - 0.3) - 5 * speed`` is a spring and a damper, as a force pushes.
+            ``force=lambda length, speed: -100 * (length - 0.3) - 5 * speed`` is a spring and a damper, since a positive
+            force pushes.
 
         Returns
         -------
@@ -149,7 +151,7 @@ class ForceVerbs(Elements):
         Raises
         ------
         TypeError, ValueError
-            If not one of length and force is given, or a callable has an argument that is not available.
+            If not exactly one of length and force is given, or a callable has an argument that is not available.
 
         Examples
         --------
@@ -179,7 +181,7 @@ class ForceVerbs(Elements):
     def force(self, name: str, point: Point | Body | str, along: ArrayLike | None = None, *,
               value: LawLike | ArrayLike | None = None, of: Bindings | None = None, frame: Body | str | None = None,
               against: Point | Body | str | None = None) -> Force:
-        """Let a force act at a point.
+        """Apply a force at a point.
 
         Parameters
         ----------
@@ -187,18 +189,19 @@ class ForceVerbs(Elements):
         point : Point, Body or name
             Point of application; a body alone: its centre of mass.
         along : array_like (2,) or (3,)
-            Its direction in the drawing; the length of the vector is ignored. Left out where `value` is a vector.
+            Direction of the force in the drawing; the length of the vector is ignored. Left out where `value` is a
+            vector.
         value : float, callable, SymPy expression, or array_like (2,) or (3,)
-            In N, of the same as the torque of `motor`; or a constant force as a vector in the drawing.
+            In N, a function of the same as the torque of `motor`; or a constant force as a vector in the drawing.
         of : dict of str to measure
             Measures that the callable receives, by argument name.
         frame : Body or name, optional
-            With which the direction turns; left out: it stays.
+            Body with which the direction turns; left out: the direction is fixed.
         against : Body, Point or name, optional
-            On which the opposite acts. On a body it acts at the same place, without a free moment; `frame` must then be that body
-            or left out (along a third body: three forces along the drawing's axes, whose laws read its ``rotation``). At a point,
-            also that of a particle, it acts there: both are a pair with a free moment, value times the distance of their lines,
-            which ``print(m)`` names. Left out: the ground.
+            Body or point on which the opposite acts. On a body it acts at the same position, without a free moment; `frame` must
+            then be that body or left out (along a third body: three forces along the drawing's axes, whose laws read its
+            ``rotation``). At a point, also that of a particle, it acts there: the pair has a free moment, value times the
+            distance of the lines of action, which ``print(m)`` reports. Left out: the ground.
 
         Returns
         -------
@@ -276,22 +279,23 @@ class ForceVerbs(Elements):
 
     def torque(self, name: str, body: Body | str, *, value: LawLike, of: Bindings | None = None,
                against: Body | str | None = None, axis: ArrayLike | None = None, frame: Body | str | None = None) -> Torque:
-        """Let a moment act on a body.
+        """Apply a moment to a body.
 
         Parameters
         ----------
         name : str
         body : Body or name
         value : float, callable or SymPy expression
-            In N m, counter-clockwise, in space right-handed about the axis; of the same as the torque of `motor`.
+            In N m, counter-clockwise, in space right-handed about the axis; a function of the same as the torque of
+            `motor`.
         of : dict of str to measure
             Measures that the callable receives, by argument name.
         against : Body or name, optional
-            On which the opposite acts; left out: the ground.
+            Body on which the opposite acts; left out: the ground.
         axis : array_like (3,)
-            In space: its direction in the drawing. It stays, or turns with `frame` or `against`.
+            In space: direction of the moment in the drawing. It is fixed, or turns with `frame` or `against`.
         frame : Body or name, optional
-            In space: with which the axis turns, where nothing else acts on that body; may be the body itself.
+            In space: body with which the axis turns, without a moment on it; may be the body itself.
 
         Returns
         -------

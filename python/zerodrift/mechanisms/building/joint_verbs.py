@@ -20,9 +20,9 @@ Side = Body | Point | str
 class JointVerbs(TableVerbs, SpaceJointVerbs):
     """Joints between bodies.
 
-    Where a joint is: `first` and `second` are points, which are joined; or a body and a point, and then the body's point that
-    lies there in the drawing is meant; or two bodies, and ``at=`` is a place in the drawing. Names stand for what they name:
-    ``"crank"``, ``"crank.end"``, a point's own name.
+    Position of a joint: `first` and `second` are two points; or a body and a point, at whose position in the drawing the body
+    is joined; or two bodies, with the position ``at=`` in the drawing. Names may replace objects: ``"crank"``,
+    ``"crank.end"``, a point's own name.
     """
 
     gravity: Any

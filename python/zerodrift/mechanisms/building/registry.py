@@ -52,12 +52,12 @@ class Elements:
     # ---- adding ----
 
     def parameter(self, name: str, value: float) -> None:
-        """Add a number of one's own, which laws name, as those of `Mechanism`.
+        """Add a user parameter, which laws name, like those of `Mechanism`.
 
         Parameters
         ----------
         name : str
-            An identifier, as callables take it as an argument.
+            An identifier, since it is an argument of callables.
         value : float
             `with_parameters` makes systems with another value.
 
@@ -104,9 +104,9 @@ class Elements:
             raise WrongValue(f"{what} is available for mechanisms in the plane, not in space", "wrong-dimension")
 
     def measure(self, name: str, value: LawLike, *, of: Bindings | None = None, unit: str = "") -> Measure:
-        """Add a measure of one's own: a function of time, parameters and other measures, which acts on nothing.
+        """Add a user-defined measure: a function of time, parameters and other measures, which acts on nothing.
 
-        Solutions, events, outputs, plots and exports have it by its name, as other measures of accelerations.
+        Solutions, events, outputs, plots and exports use it by its name, like other measures of accelerations.
 
         Parameters
         ----------

@@ -29,19 +29,19 @@ class StartVerbs(Elements):
     def start(self, held: Values | None = None, *, wish: Values | None = None, equilibrium: bool | None = None) -> None:
         """Set initial positions and velocities. Other coordinates start as drawn and at rest, as far as loops and drives allow.
 
-        Joint coordinates that neither values given here nor drives force stay as in the drawing with its joints closed, and
-        their rates are zero: the angle of a pendulum on a cart does not change with the cart's place. Coordinates of a loop or a
-        coupling that contains a forced one move as little as possible in the mass metric. A coordinate of which a drive
-        prescribes the speed keeps its drawn value, also where lengths change, unless values given here move it. Where joint
-        coordinates cannot stay, as in a drawing that is singular, all bodies move as little as possible in the mass metric. The
-        printed mechanism names joints that are drawn open and bodies that start elsewhere than drawn; a run warns of a large
-        gap, and of a drive that cannot start as drawn, see `DrawingWarning`.
+        Joint coordinates that neither values given here nor drives determine stay as in the drawing with its joints closed, and
+        their rates are zero: the angle of a pendulum on a cart does not change with the cart's position. Coordinates of a loop
+        or a coupling that contains a forced one move as little as possible in the mass metric. A coordinate whose speed a drive
+        prescribes keeps its drawn value, even if lengths change, unless values given here move it. Where joint coordinates
+        cannot stay, as in a singular drawing, all bodies move as little as possible in the mass metric. The printed mechanism
+        names joints that are drawn open and bodies that do not start as drawn; a run warns of a large gap, and of a drive that
+        cannot start as drawn, see `DrawingWarning`.
 
-        Velocities that this leaves undetermined are those of least kinetic energy relative to the motion of what drives carry:
-        connected bodies that a drive leaves undetermined move rigidly with one that it moves if no constraint hinders them, or
-        translate with a driven point; only in mechanisms of more than 1,000 constraints or velocities in absolute coordinates the
-        energy is relative to the ground. Rates given here change what drives alone give as little as possible in kinetic energy.
-        The printed mechanism lists velocities that start undetermined.
+        Velocities that remain undetermined have the least kinetic energy relative to a reference motion, in which connected
+        bodies that a drive leaves undetermined move rigidly with one that it moves if no constraint prevents this, or else
+        translate with a driven point; in mechanisms of more than 1,000 constraints or velocities in absolute coordinates,
+        relative to the ground. Rates given here change the velocities by the least kinetic energy. The printed mechanism lists
+        velocities that start undetermined.
 
         Parameters
         ----------
@@ -49,11 +49,11 @@ class StartVerbs(Elements):
             Values to satisfy: positions and velocities by object or by name, components or vectors; of a body in space its
             ``rotation``, too, as a matrix or a unit quaternion. Later calls add and replace values; None removes one.
         wish : dict of measure to value
-            Values to approach as nearly as possible after that.
+            Values to approach as closely as the held ones allow.
         equilibrium : bool, optional
             True: the motion starts in the stable equilibrium that `zerodrift.equilibrium` finds from that position, with drives
-            at its time; held positions are where the search begins, held speeds are kept as nearly as the constraints allow.
-            False takes that back; left out, it stays as it was.
+            at its time; the search begins at held positions, and held speeds are kept as closely as the constraints allow.
+            False cancels this; left out, the setting stays.
 
         Raises
         ------

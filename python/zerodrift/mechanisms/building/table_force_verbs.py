@@ -21,31 +21,31 @@ from .registry import Elements
 from .table_joint_documentation import POINTS, SIDES, wrapped
 
 WORDS = {
-    "joint": ("Joint, measure or name", "With one angle, which counts turns; or one of two, such as ``universal.angle1``."),
+    "joint": ("Joint, measure or name", "Joint with one angle, which counts turns; or one of two, such as ``universal.angle1``."),
     "at": ("array_like {vector}", "Position of the element in the drawing, in m."),
     "axis": ("array_like {axis_size}", "{axis}direction in the drawing; it turns with the first body.{own_axes}"),
     "normal": ("array_like (3,), optional", "In space its second direction, which is made perpendicular; the third follows."),
     "length": ("float, optional", "Unstressed length in m, at least 0; left out: as drawn."),
     "angle": ("float, optional", "Angle of the joint at which the spring is slack, in rad; left out: 0, as drawn."),
-    "force": ("float, callable or SymPy expression, in the place of `stiffness`",
-              "Tension in N, negative where it pushes; of the same as the torque of `motor`. The spring's own ``length`` and "
-              "``speed`` need no `of`: ``force=lambda length, speed: 500 * (length - 0.3)`` restores a length of 0.3 m. Its "
-              "work is an input of energy; only a number as stiffness has a potential."),
-    "torque": ("float, callable or SymPy expression, in the place of `stiffness`",
-               "Torque on the joint's second body in N m; of the same as that of `motor`. The joint's own ``angle`` and "
-               "``speed`` need no `of`: ``torque=lambda angle, speed: -5 * angle`` restores the angle 0. Its work is an input of "
-               "energy; only a number as stiffness has a potential."),
+    "force": ("float, callable or SymPy expression, instead of `stiffness`",
+              "Tension in N, negative where it pushes; a function of the same as the torque of `motor`. The spring's own "
+              "``length`` and ``speed`` need no `of`: ``force=lambda length, speed: 500 * (length - 0.3)`` restores a length of "
+              "0.3 m. Its work is an input of energy; only a number as stiffness has a potential."),
+    "torque": ("float, callable or SymPy expression, instead of `stiffness`",
+               "Torque on the joint's second body in N m; a function of the same as that of `motor`. The joint's own "
+               "``angle`` and ``speed`` need no `of`: ``torque=lambda angle, speed: -5 * angle`` restores the angle 0. Its "
+               "work is an input of energy; only a number as stiffness has a potential."),
     "value": ("float, callable or SymPy expression",
-              "In {unit}; of the same as the torque of `motor`."),
+              "In {unit}; a function of the same as the torque of `motor`."),
     "of": ("dict of str to measure", "Measures that the callable receives, by argument name.")}
 VECTOR = {
-    word: (f"callable or array_like of laws, in the place of `{stiffness}`",
+    word: (f"callable or array_like of laws, instead of `{stiffness}`",
            f"{what} on the second body along its directions, {unit}, one number for each: "
-           f"``{word}=lambda {value}, {rate}: -500 * {value} - 5 * {rate}`` restores. {more}of the same as the "
+           f"``{word}=lambda {value}, {rate}: -500 * {value} - 5 * {rate}`` restores. {more}a function of the same as the "
            "torque of `motor`, and an input of energy.")
     for word, stiffness, what, unit, value, rate, more in (
         ("force", "stiffness", "Force", "in N", "displacement", "velocity", "Arrays of its own ``displacement``, ``velocity``, "
-         "``angle`` and ``angular_velocity`` need no `of`, the last two are numbers in the plane; "),
+         "``angle`` and ``angular_velocity`` need no `of`; the last two are numbers in the plane; "),
         ("torque", "torsion", "Torque", "in N m", "angle", "angular_velocity", "As `force`, "))}
 UNITS = {"stiffness": ("N/m", "N m/rad"), "damping": ("N s/m", "N m s/rad"), "torsion": ("", "N m/rad"),
          "torsion_damping": ("", "N m s/rad"), "value": ("N", "N m")}      # along marker quantities in m and in rad
@@ -56,7 +56,7 @@ NEEDED = inspect.Parameter.empty
 SYMMETRIC = 1e-9        # of the largest entry of a matrix: asymmetry, at most
 HINT = ("its potential is one of positions alone; give force=, such as lambda t, displacement: -k(t) * displacement, or "
         "torque=, such as lambda t, angle: -k(t) * angle")
-VARYING = (" As a function, such as ``lambda t: 500 + 20 * t``, it is of the same as the torque of `motor`; "
+VARYING = (" As a function, such as ``lambda t: 500 + 20 * t``, it may depend on the same as the torque of `motor`; "
            "its work is then an input of energy.")
 DAMPER = "give force= of a spring, such as lambda speed: 5 * speed**3, or torque= of a torsion spring, with the opposite sign"
 FLAT = 1e-6             # sine of the angle below which directions are parallel

@@ -15,13 +15,13 @@ POINTS = {"first, second": ("Point, Particle or name", "")}
 POINT = {"point": ("Point, Body or name", "Point of a body; a body alone: its centre of mass.")}
 WORDS = {
     "axis": ("array_like {axis_size}", "{only}direction in the drawing; it turns with the {carrier}."),
-    "along": ("array_like {axis_size}", "Its direction in the drawing, in which the point glides; it turns with the body."),
+    "along": ("array_like {axis_size}", "Its direction in the drawing, in which the point slides; it turns with the body."),
     "up": ("array_like (3,), optional",
            "In space a direction in the drawing, made perpendicular to `along`; left out: against gravity, or z without gravity. "
-           "The velocity of the point along ``cross(normal, along)`` is zero. This direction turns with the body: a body that "
-           "leans takes it along. The joint does not keep the point on a plane."),
+           "The velocity of the point along ``cross(normal, along)`` is zero. This direction turns with the body, also "
+           "when it leans. The joint does not keep the point on a plane."),
     "axes": ("tuple of array_like (3,)", "Axis of the first body and axis of the second in the drawing, not parallel. They keep "
-             "their angle; where that is not a right one, the joint is cut."),
+             "their angle; if it is not a right angle, the joint is cut."),
     "normal": ("array_like (3,)", "Normal of the plane of the first body, in the drawing."),
     "at": ("array_like {size}", "Position of the joint in the drawing, in m.{origin}"),
     "pitch": ("float", "Advance of the second body along the axis per turn, in m; positive for a right-handed screw."),
@@ -30,8 +30,8 @@ WORDS = {
     "cut": ("bool", "True if this joint must close a loop; left out, the joint that closes a loop is chosen."),
     "friction_torque": ("float or (float, float), optional", "Bound of dry friction, or the static and the sliding one, in N m."),
     "friction_force": ("float or (float, float), optional", "Bound of dry friction, or the static and the sliding one, in N."),
-    "friction": ("float or (float, float), optional", "In the plane: its coefficients instead, of the load that the joint bears; "
-                 "the joint is then constraints, not a coordinate."),
+    "friction": ("float or (float, float), optional", "In the plane: coefficients of friction instead, under the load of the "
+                 "joint, which is then constraints, not a coordinate."),
     "radius": ("float, optional", "Radius of the pin in m, on which `friction` acts: its torque is at most ``mu r |F|``."),
     "guide": ("float, optional", "Length of the guide in m: friction is at most ``mu max(|F|, 2 |M| / l)``."),
     "active": ("bool, optional", "Initial state of a joint that can be released and joined, by `Run.release`, `Run.join`, "

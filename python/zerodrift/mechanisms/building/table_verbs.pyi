@@ -133,7 +133,7 @@ class TableVerbs(Elements):
         friction_torque : float or (float, float), optional
             Bound of dry friction, or the static and the sliding one, in N m.
         friction : float or (float, float), optional
-            In the plane: its coefficients instead, of the load that the joint bears; the joint is then constraints, not a
+            In the plane: coefficients of friction instead, under the load of the joint, which is then constraints, not a
             coordinate.
         radius : float, optional
             Radius of the pin in m, on which `friction` acts: its torque is at most ``mu r |F|``.
@@ -187,7 +187,7 @@ class TableVerbs(Elements):
         friction_force : float or (float, float), optional
             Bound of dry friction, or the static and the sliding one, in N.
         friction : float or (float, float), optional
-            In the plane: its coefficients instead, of the load that the joint bears; the joint is then constraints, not a
+            In the plane: coefficients of friction instead, under the load of the joint, which is then constraints, not a
             coordinate.
         guide : float, optional
             Length of the guide in m: friction is at most ``mu max(|F|, 2 |M| / l)``.
@@ -348,11 +348,11 @@ class TableVerbs(Elements):
         point : Point, Body or name
             Point of a body; a body alone: its centre of mass.
         along : array_like (2,) or (3,)
-            Its direction in the drawing, in which the point glides; it turns with the body.
+            Its direction in the drawing, in which the point slides; it turns with the body.
         normal : array_like (3,), optional
             In space a direction in the drawing, made perpendicular to `along`; left out: against gravity, or z without gravity.
-            The velocity of the point along ``cross(normal, along)`` is zero. This direction turns with the body: a body that
-            leans takes it along. The joint does not keep the point on a plane.
+            The velocity of the point along ``cross(normal, along)`` is zero. This direction turns with the body, also when it
+            leans. The joint does not keep the point on a plane.
         active : bool, optional
             Initial state of a joint that can be released and joined, by `Run.release`, `Run.join`, `Mechanism.latch` and
             ``Event(then=)``; it is then constraints, not a coordinate.
@@ -563,8 +563,8 @@ class TableVerbs(Elements):
         first, second : Body, Point or name
             Two points; a body and a point; or two bodies, and `at`.
         axes : tuple of array_like (3,)
-            Axis of the first body and axis of the second in the drawing, not parallel. They keep their angle; where that is not
-            a right one, the joint is cut.
+            Axis of the first body and axis of the second in the drawing, not parallel. They keep their angle; if it is not a
+            right angle, the joint is cut.
         at : array_like (3,)
             Position of the joint in the drawing, in m.
         damping : float
@@ -608,16 +608,16 @@ class TableVerbs(Elements):
         name : str
         first, second : Point, Particle or name
         stiffness : float, callable or SymPy expression
-            In N/m, at least 0. As a function, such as ``lambda t: 500 + 20 * t``, it is of the same as the torque of `motor`;
-            its work is then an input of energy.
+            In N/m, at least 0. As a function, such as ``lambda t: 500 + 20 * t``, it may depend on the same as the torque of
+            `motor`; its work is then an input of energy.
         length : float, optional
             Unstressed length in m, at least 0; left out: as drawn.
         damping : float
             In N s/m, at least 0.
-        force : float, callable or SymPy expression, in the place of `stiffness`
-            Tension in N, negative where it pushes; of the same as the torque of `motor`. The spring's own ``length`` and
-            ``speed`` need no `of`: ``force=lambda length, speed: 500 * (length - 0.3)`` restores a length of 0.3 m. Its work is
-            an input of energy; only a number as stiffness has a potential.
+        force : float, callable or SymPy expression, instead of `stiffness`
+            Tension in N, negative where it pushes; a function of the same as the torque of `motor`. The spring's own ``length``
+            and ``speed`` need no `of`: ``force=lambda length, speed: 500 * (length - 0.3)`` restores a length of 0.3 m. Its
+            work is an input of energy; only a number as stiffness has a potential.
         of : dict of str to measure
             Measures that the callable receives, by argument name.
 
@@ -647,18 +647,18 @@ class TableVerbs(Elements):
         ----------
         name : str
         joint : Joint, measure or name
-            With one angle, which counts turns; or one of two, such as ``universal.angle1``.
+            Joint with one angle, which counts turns; or one of two, such as ``universal.angle1``.
         stiffness : float, callable or SymPy expression
-            In N m/rad, at least 0. As a function, such as ``lambda t: 500 + 20 * t``, it is of the same as the torque of
-            `motor`; its work is then an input of energy.
+            In N m/rad, at least 0. As a function, such as ``lambda t: 500 + 20 * t``, it may depend on the same as the torque
+            of `motor`; its work is then an input of energy.
         angle : float, optional
             Angle of the joint at which the spring is slack, in rad; left out: 0, as drawn.
         damping : float
             In N m s/rad, at least 0.
-        torque : float, callable or SymPy expression, in the place of `stiffness`
-            Torque on the joint's second body in N m; of the same as that of `motor`. The joint's own ``angle`` and ``speed``
-            need no `of`: ``torque=lambda angle, speed: -5 * angle`` restores the angle 0. Its work is an input of energy; only
-            a number as stiffness has a potential.
+        torque : float, callable or SymPy expression, instead of `stiffness`
+            Torque on the joint's second body in N m; a function of the same as that of `motor`. The joint's own ``angle`` and
+            ``speed`` need no `of`: ``torque=lambda angle, speed: -5 * angle`` restores the angle 0. Its work is an input of
+            energy; only a number as stiffness has a potential.
         of : dict of str to measure
             Measures that the callable receives, by argument name.
 
@@ -707,15 +707,15 @@ class TableVerbs(Elements):
             In N m/rad about its directions, at least 0.
         torsion_damping : float, in space or array_like (3,)
             In N m s/rad about its directions, at least 0.
-        force : callable or array_like of laws, in the place of `stiffness`
+        force : callable or array_like of laws, instead of `stiffness`
             Force on the second body along its directions, in N, one number for each: ``force=lambda displacement, velocity:
             -500 * displacement - 5 * velocity`` restores. Arrays of its own ``displacement``, ``velocity``, ``angle`` and
-            ``angular_velocity`` need no `of`, the last two are numbers in the plane; of the same as the torque of `motor`, and
-            an input of energy.
-        torque : callable or array_like of laws, in the place of `torsion`
+            ``angular_velocity`` need no `of`; the last two are numbers in the plane; a function of the same as the torque of
+            `motor`, and an input of energy.
+        torque : callable or array_like of laws, instead of `torsion`
             Torque on the second body along its directions, in N m, one number for each: ``torque=lambda angle,
-            angular_velocity: -500 * angle - 5 * angular_velocity`` restores. As `force`, of the same as the torque of `motor`,
-            and an input of energy.
+            angular_velocity: -500 * angle - 5 * angular_velocity`` restores. As `force`, a function of the same as the torque
+            of `motor`, and an input of energy.
         of : dict of str to measure
             Measures that the callable receives, by argument name.
         axis : array_like (3,), optional

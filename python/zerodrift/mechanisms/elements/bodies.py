@@ -127,7 +127,7 @@ class Body(Fixed, Shapes):
         local : array_like (2,), in space (3,)
             Its coordinates in the body's frame, in m.
         at : array_like (2,) or (3,), or Point
-            Instead: where it is in the drawing.
+            Its position in the drawing, instead of `local`.
         name : str, optional
             For its measures, ``"name.position"`` and ``"name.velocity"``.
 
@@ -182,8 +182,8 @@ class Ground(Body):
 class Link(Body):
     """A body between two points, `start` and `end`; `Mechanism.link` makes it.
 
-    Its frame begins at the start: `position`, `velocity` and `acceleration` are those of the start. Its middle is
-    ``link.center.position``.
+    The origin of its frame is the start: `position`, `velocity` and `acceleration` are those of the start. Its middle
+    is ``link.center.position``.
 
     Attributes
     ----------
@@ -245,7 +245,7 @@ class _Center(Point):
 
 
 class Particle(Body):
-    """A mass in a point, without orientation; `Mechanism.particle` makes it.
+    """A point mass, without orientation; `Mechanism.particle` makes it.
 
     Attributes
     ----------

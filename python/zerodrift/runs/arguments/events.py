@@ -23,11 +23,11 @@ class Event:
     ----------
     what : measure, str, SymPy expression or callable
         A scalar measure, or a coordinate or velocity of the system, by name; or an expression of these, of ``t``, of parameters,
-        and of what `of` binds, in symbols of their names; or a function of Python that names what it wants: ``t``, ``p``, ``v``,
-        parameters, and what `of` binds. The core evaluates all but the last itself, in nanoseconds; in ensembles, runs with
-        these alone take vector lanes, unless they read reactions or accelerations.
+        and of the names in `of`, as symbols; or a Python function with arguments among ``t``, ``p``, ``v``, parameters, and the
+        names in `of`. The core evaluates all but the last itself, in nanoseconds; in ensembles, runs with only these use SIMD
+        lanes, unless they read reactions or accelerations.
     value : float
-        Which it reaches, in the unit of the measure.
+        Value to reach, in the unit of the measure.
     direction : {-1, 0, 1}
         1: from below only, -1: from above only.
     terminal : bool or int
@@ -35,11 +35,11 @@ class Event:
     of : dict of str to measure, optional
         Measures that the function receives, by argument name, or that symbols of the expression stand for.
     then : callable or dict, optional
-        Action at each occurrence, after which the run goes on: a dict has values of inputs by name, which need not be named as
-        inputs elsewhere. The core sets them, in `simulate`, `Run`, `ensemble`, `block`, `c_source`, `fmu` and live views. Or a
-        function, of `simulate` and `Run`: ``then(run)`` may set inputs and `Run.set_state`. A terminal event acts, too, and the
-        last sample is the one before. The name of a joint that was made with `active` with False lets it go, with True it joins
-        as it stands.
+        Action at each occurrence, after which the run goes on: a dict has values of inputs by name, which need not be declared
+        as inputs elsewhere. The core sets them, in `simulate`, `Run`, `ensemble`, `block`, `c_source`, `fmu` and live views. Or
+        a function, of `simulate` and `Run`: ``then(run)`` may set inputs and `Run.set_state`. A terminal event acts, too, and
+        the last sample is the one before. The name of a joint that was made with `active`: False releases it, True joins the
+        bodies where they are.
 
     Notes
     -----
@@ -48,10 +48,10 @@ class Event:
     except exactly at the end of a step.
 
     With `then` an event is armed again once its function has left zero; several at one instant act in the order of the list, and
-    one that acts three times within 1e-9 of the time that has passed is an error. A fixed step that is cut goes on by a short
+    one that acts three times within 1e-9 of the elapsed time is an error. A shortened fixed step is followed by another short
     one to its grid. `Solution.jumps` has all actions. Samples of steps have the states before and after `set_state`, and
-    ``sol(t)`` at the instant that was located has the one after; a time of `t_eval` at the instant has the one before. What a
-    function keeps itself is not in saved states.
+    ``sol(t)`` at the located instant has the one after; a time of `t_eval` at the instant has the one before. Saved states do
+    not include data that a function keeps.
 
     Reactions and accelerations are those of the state at which the event is evaluated. Where an input jumps, they jump with
     it: the event happens there, and the state after the jump is reported.

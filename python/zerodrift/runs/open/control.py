@@ -57,11 +57,11 @@ def every(period: float, call: Callable[[Any], object] | None = None) -> Any:
     ----------
     period : float
         In s, counted from the start of the run. With fixed steps it must be a whole number of steps. Adaptive steps end at these
-        instants, and so do fixed ones after a step that was shortened, to the time of `Run.advance_to` or to a terminal event.
+        instants, and so do fixed ones after a shortened step, to the time of `Run.advance_to` or to a terminal event.
     call : callable
-        ``call(run)`` receives the `Run` at its present state; what it assigns to ``run[name]`` or ``run.inputs`` holds until it
-        is assigned again. Its return value is ignored. It must not step, advance, reset, restore or close this run; a
-        `copy` of it is free. Left out: `every` is a decorator.
+        ``call(run)`` receives the `Run` at its present state; values that it assigns to ``run[name]`` or ``run.inputs`` hold
+        until they are assigned again. Its return value is ignored. It must not step, advance, reset, restore or close this run,
+        but may do so with a `copy` of it. Left out: `every` is a decorator.
 
     Returns
     -------

@@ -35,16 +35,16 @@ MAX_LANES = 8          # of a vector unit: parts begin at multiples
 class ManyRuns:
     """Many open runs of one system, advanced together.
 
-    Each has the bits that it has alone, except the last bits of the built-in pendulum and knife edge in lanes. They execute in
-    one thread per available processor if the system does not call Python; and in SIMD lanes, as many at once as a vector of the
-    processor has numbers, with fixed steps of a Runge-Kutta method if the system has closed-form functions: those of
-    ``zd.systems``, symbolic ones, and small mechanisms. Steps that lanes cannot make, those near a
-    singularity or so long that constraints reverse, are made individually.
+    Results are bitwise those of single runs, except the last bits of the built-in pendulum and knife edge in lanes. Runs
+    execute in one thread per available processor if the system does not call Python; and in SIMD lanes, as many at once as a
+    vector of the processor has numbers, with fixed steps of a Runge-Kutta method if the system has closed-form functions: those
+    of ``zd.systems``, symbolic ones, and small mechanisms. Steps that lanes cannot make, those near a singularity or so long
+    that constraints reverse, are made individually.
 
     Parameters
     ----------
     system : system
-        As of `Run`; fastest from ``mechanism.system(compiled=True)``.
+        As in `Run`; fastest from ``mechanism.system(compiled=True)``.
     p0, v0 : array_like (nq,), (nv,), or of each run (runs, nq), (runs, nv), optional
         Starts; by default that of the system.
     runs : int
@@ -52,7 +52,7 @@ class ManyRuns:
     parameters : dict of str to float or array_like (runs,), optional
         Parameters of the system in each run.
     t0, step, inputs, hold, ramp, **settings
-        As of `Run`, except `events`, `outputs`, `control`, `record` and `save_to`, which are not available: a controller is a
+        As in `Run`, except `events`, `outputs`, `control`, `record` and `save_to`, which are not available: a controller is a
         loop that sets ``runs[name]`` between calls of `step`.
 
     Attributes
@@ -65,7 +65,7 @@ class ManyRuns:
 
     See Also
     --------
-    Run : one of them, with all arguments.
+    Run : a single run, with all arguments.
 
     Examples
     --------
@@ -126,7 +126,7 @@ class ManyRuns:
         Parameters
         ----------
         steps : int
-            Their number, at least 0.
+            Number of steps, at least 0.
         """
         self._advance(checks.count("steps", steps, least=0), math.inf)
 
@@ -250,7 +250,7 @@ class ManyRuns:
         return [saved(ready, self._core[i], [], self.system) for i, ready in enumerate(self._ready)]
 
     def restore(self, states: bytes | Sequence[bytes], *, where: ArrayLike | None = None) -> None:
-        """Put runs to saved states, with which they continue with the same bits.
+        """Restore saved states, from which runs continue with the same bits.
 
         Parameters
         ----------
@@ -284,14 +284,14 @@ class ManyRuns:
 
     def reset(self, p0: ArrayLike | None = None, v0: ArrayLike | None = None, *, start: Values | None = None,
               where: ArrayLike | None = None) -> None:
-        """Put runs back to t0, with their first inputs.
+        """Reset runs to t0, with their first inputs.
 
         Parameters
         ----------
         p0, v0 : array_like (nq,), (nv,), or of each run that is reset (k, nq), (k, nv)
             Other starts; left out: the first ones. They must satisfy the constraints.
         start : dict of measure to value, optional
-            Instead, for mechanisms: values of measures, as of `Mechanism.start`, in addition to the mechanism's own; one for all
+            Instead, for mechanisms: values of measures, as in `Mechanism.start`, in addition to the mechanism's own; one for all
             runs, or an array of values (k, ...).
         where : array_like (runs,) of bool, optional
             True for the k runs to reset; left out: all.

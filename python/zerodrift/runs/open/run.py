@@ -27,7 +27,7 @@ class Run(Stepping):
     Parameters
     ----------
     system : system
-        As of `simulate`.
+        As in `simulate`.
     p0, v0 : array_like (nq,), (nv,), optional
         Start; by default that of the system.
     t0 : float
@@ -38,26 +38,26 @@ class Run(Stepping):
         Numbers that are set between steps, by ``run[name] = value`` or ``run.inputs[:] = values``: torques, forces and speeds of
         motors, actuators and loads of a mechanism, such as "drive.torque"; declared symbols of `symbolic`; numbers and arrays
         among the parameters of a `System`, as "u", or entries of them, as "u[0]"; parameters of a `native` system, which are
-        numbers. An array is set as a whole, ``run["u"] = [1.0, 2.0]``, or by entries. A dict has
-        limits (lower, upper) of each, or None; no step is made with an input beyond them. Inputs begin with the number that the
-        system has. Forces are constant within a step, and their work is part of the energy balance. A speed is followed linearly,
-        from the one before: over one fixed step, or over the time `ramp` in adaptive steps.
+        numbers. An array is set as a whole, ``run["u"] = [1.0, 2.0]``, or by entries. A dict has limits (lower, upper) for each,
+        or None; no step is made with an input beyond them. Inputs begin with the values of the system. Forces are constant within
+        a step, and their work is part of the energy balance. A speed changes linearly from its previous value: over one fixed
+        step, or over the time `ramp` in adaptive steps.
     hold : bool
         True: speeds that are inputs are constant in a step, too, and jump at its start. A jump is an impulse: velocities are
         projected onto the constraints with the new speeds, orthogonally in the mass metric, (25b). Its work is part of the
         energy balance, and `jump` has both. A start whose velocities do not fit a speed jumps to it in the first step, too;
-        without `hold`, it is an error that names the number that fits.
+        without `hold`, it is an error that names the consistent value.
     ramp : float, optional
-        Adaptive steps: time in s over which a speed goes linearly to its input, so that the motion does not depend on step sizes;
-        one step ends with the ramp. If the input changes meanwhile, a new ramp begins at the present speed.
+        Adaptive steps: time in s over which a speed changes linearly to its input, so that the motion does not depend on step
+        sizes; one step ends with the ramp. If the input changes meanwhile, a new ramp begins at the present speed.
     control : Every, or list of these, optional
         Controllers, see `every`: each is called before the step that begins at one of its instants.
     record : bool
-        True: every sample is kept in memory, for `solution`. A run that records nothing needs the same memory however long it is.
+        True: every sample is kept in memory, for `solution`. A run without a record needs the same memory at any length.
     save_to : str or Path, optional
-        File to which samples are written, as of `simulate`; includes `record`.
+        File to which samples are written, as in `simulate`; includes `record`.
     **settings
-        As of `simulate`: `rtol`, `atol`, `first_step`, `max_step`, `max_move`, `max_steps`, `events`, `formulation`,
+        As in `simulate`: `rtol`, `atol`, `first_step`, `max_step`, `max_move`, `max_steps`, `events`, `formulation`,
         `integrator`, `stabilization`, `energy`, `correction`, `save_every`, `outputs`, `on_singular`, `closed_form`, `vector`.
 
     Attributes
@@ -69,26 +69,26 @@ class Run(Stepping):
         Inputs in the order of their names, in N m, N, m/s or rad/s; writable. They hold from the next step on.
     jump : Jump or None
         With `hold`: the last jump of speeds; its time `t`, the dicts `impulses` (N m s, N s) and `works` (J) by the names of
-        motors, and `work`, that of all motors (J). The samples are those before it. A recorded solution has the sums since the
-        sample before, by ``sol["drive.impulse"]`` and ``sol["drive.impulse_work"]``.
+        motors, and `work`, that of all motors (J). Samples have the state before it. A recorded solution has the sums since
+        the previous sample, by ``sol["drive.impulse"]`` and ``sol["drive.impulse_work"]``.
 
     Raises
     ------
     ZerodriftError, ValueError, TypeError
-        As `simulate` does for a start or an argument that is wrong.
+        As `simulate`, for a wrong start or argument.
 
     See Also
     --------
-    simulate : the shortest use of a run: to a given end, with a record of all samples.
+    simulate : a run to a given end, with a record of all samples.
     ManyRuns : many runs of one system.
 
     Notes
     -----
-    Chained advances have the bits of one: ``run.step(2); run.step(3)`` is ``run.step(5)``, and with fixed steps the k-th one ends
-    at ``t0 + k * step``, whatever the calls.
+    Successive advances give the bits of a single one: ``run.step(2); run.step(3)`` is ``run.step(5)``, and with fixed steps the
+    k-th one ends at ``t0 + k * step``, whatever the calls.
 
-    A step that fails raises the error that `simulate` raises, and leaves the run at the start of that step: it can be read and go
-    on, for example after another input. The same holds for Ctrl-C, and for what events and controllers raise.
+    A step that fails raises the error that `simulate` raises, and leaves the run at the start of that step: it can be read and
+    continued, for example after another input. The same holds for Ctrl-C, and for errors of events and controllers.
 
     Forces of a mechanism may read reactions and accelerations by name, see `Mechanism.motor`.
 
@@ -160,12 +160,12 @@ class Run(Stepping):
     # ---- state ----
 
     def save(self) -> bytes:
-        """The present state: everything that the next bit depends on.
+        """The present state: everything that the further motion depends on.
 
-        A run that is made alike continues from it with the same bits: here or in another process, with the same vector
-        unit, in this version and others that lay out runs alike, whatever compiler built them (in closed form with other units
-        than "baseline": to 1e-13). Controllers with the methods ``state()`` and ``restore(state)`` are included; others keep
-        what they have, and are named in a warning. Samples are not.
+        A run made with the same arguments continues from it with the same bits: here or in another process, with the same
+        vector unit, in this version and others with the same layout of runs, whatever compiler built them (in closed form with
+        other units than "baseline": to 1e-13). Controllers with the methods ``state()`` and ``restore(state)`` are included;
+        others keep their state, and are named in a warning. Samples are not included.
 
         Returns
         -------
@@ -203,7 +203,7 @@ class Run(Stepping):
         Parameters
         ----------
         state : bytes
-            From `save` of this run, or of one that was made alike.
+            From `save` of this run, or of one made with the same arguments.
 
         Raises
         ------
@@ -314,7 +314,7 @@ class Run(Stepping):
         return solution
 
     def close(self) -> None:
-        """Stop recording, and let go of the file of `save_to`."""
+        """Stop recording, and close the file of `save_to`."""
         self._require_idle()
         self._record, self._c_record = None, gateway.NO_RECORD
         self._lock.__exit__(None, None, None)

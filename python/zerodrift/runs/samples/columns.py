@@ -61,7 +61,8 @@ def unit_of(solution: Any, name: str) -> str:
 @displayed
 def to_csv(self: Any, path: str | Path, names: Names | None = None, *,
            display: Display | None = None) -> Path:
-    """Write columns to a CSV file: the time, and what is named, a component each, with names and units in the first line.
+    """Write columns to a CSV file: the time and the named quantities, one column for each component, with names and units
+    in the first line.
 
     Parameters
     ----------
@@ -70,7 +71,7 @@ def to_csv(self: Any, path: str | Path, names: Names | None = None, *,
         Coordinates, velocities, constraints and measures, as in ``sol[name]``. Left out: all coordinates, velocities and
         multipliers. The multiplier of a drive or coupling is named so, as its force has the opposite sign.
     display : dict of str to str, optional
-        Units by quantity, such as ``{"force": "kN", "angle": "deg"}``, as of `zerodrift.display_units`; left out: those of the
+        Units by quantity, such as ``{"force": "kN", "angle": "deg"}``, as in `zerodrift.display_units`; left out: those of the
         session.
 
     Returns
@@ -106,7 +107,7 @@ def to_csv(self: Any, path: str | Path, names: Names | None = None, *,
 @displayed
 def to_excel(self: Any, path: str | Path, names: Names | None = None, *,
              display: Display | None = None) -> Path:
-    """Write the same to an Excel file; pandas and openpyxl have to be installed: ``pip install 'zerodrift[excel]'``.
+    """Write the same to an Excel file; pandas and openpyxl must be installed: ``pip install 'zerodrift[excel]'``.
 
     Parameters
     ----------

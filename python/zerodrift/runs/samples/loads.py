@@ -131,7 +131,7 @@ class Loaded:
         crank : measure or str, optional
             An angle that becomes a column of the table, such as ``"main.angle"``.
         display : dict of str to str, optional
-            Units by quantity, as of `zerodrift.display_units`; left out: those of the session.
+            Units by quantity, as in `zerodrift.display_units`; left out: those of the session.
 
         Returns
         -------

@@ -56,7 +56,8 @@ class Solution(Named, Loaded):
     iterations : ndarray (k,)
         Largest number of iterations of a position projection since the previous sample.
     energy_skipped : ndarray (k,)
-        Number of energy corrections skipped since the previous sample, as no bounded factor (29) would have removed the error.
+        Number of energy corrections skipped since the previous sample because no bounded factor (29) would have removed the
+        error.
     position_size : ndarray (mh,)
         Characteristic size of each component of Phi, by which `Projection` scales its tolerance.
     stats : dict
@@ -76,10 +77,10 @@ class Solution(Named, Loaded):
           residual norm in the mass metric) of a constraint after elimination of others; `smallest_pivot_time`: its time in s;
           `smallest_pivot_row`: the constraint. Near a bifurcation it is small, and accelerations lose digits.
         * `matrix_path_reason`: reason why no step was evaluated in closed form; None if some were, or if systems of this kind
-          have no closed form. `interpreted`: what compiling the equations would save; None if they are, or cannot be.
-          `calls`: s in each user function that was called, as it could not be recorded.
+          have no closed form. `interpreted`: time that compiling the equations would save; None if they are compiled, or
+          cannot be. `calls`: time in s in each user function that was called because it could not be recorded.
     status : int
-        0: done, positive: ended early, negative: failed. All samples are valid in each case.
+        0: done; positive: ended early; negative: failed. All samples are valid in each case.
     success : bool
         True if the end or a terminal event was reached.
     message : str
@@ -242,7 +243,7 @@ class Solution(Named, Loaded):
     def at(self, t: float) -> Instant:
         """The state at a time between the first and the last sample, from which any measure is read by its name.
 
-        It is a start of `simulate` and a state of `linearize`.
+        It can be the start of `simulate` and the state of `linearize`.
 
         Parameters
         ----------
@@ -256,7 +257,7 @@ class Solution(Named, Loaded):
         Raises
         ------
         ValueError
-            As a call of the solution.
+            If t is not between them.
 
         Examples
         --------
@@ -290,7 +291,8 @@ class Solution(Named, Loaded):
     def save(self, path: str | Path) -> Path:
         """Write everything to an NPZ file, without pickle; `zerodrift.load` reads it into memory.
 
-        What the run recorded is kept, and a mechanism with it unless it has callables; so measures are read from it as from this.
+        It contains all that the run recorded, and a mechanism unless that has callables; measures are then read from it as from
+        this.
 
         Parameters
         ----------
