@@ -29,7 +29,7 @@ static const zd_block_structure both[] = {
         ZD_DOUBLES_FIELD(zd_element_group, load_factor, 3), ZD_INT_FIELD(zd_element_group, is_largest),
         ZD_DOUBLES_FIELD(zd_element_group, scale, 1), ZD_DOUBLES_FIELD(zd_element_group, value, 1),
         ZD_DOUBLES_FIELD(zd_element_group, restitution, 1),
-        ZD_DOUBLES_FIELD(zd_element_group, friction, 2), ZD_INT_FIELD(zd_element_group, range), ZD_INT_FIELD(zd_element_group, other),
+        ZD_DOUBLES_FIELD(zd_element_group, friction, 2), ZD_INT_FIELD(zd_element_group, range), ZD_INT_FIELD(zd_element_group, opposite),
         ZD_DOUBLES_FIELD(zd_element_group, lower, 1), ZD_DOUBLES_FIELD(zd_element_group, upper, 1)),
 };
 

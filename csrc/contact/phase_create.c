@@ -131,6 +131,8 @@ zd_phase_system *zd_phase_system_create(zd_arena *arena, const zd_system *full, 
     self->tie_factor = zd_arena_doubles(arena, groups);
     self->bias = zd_arena_doubles(arena, groups);
     self->lambda = zd_arena_doubles(arena, m);
+    self->known_p = zd_arena_doubles(arena, full->nq);
+    self->known_v = zd_arena_doubles(arena, full->nv);
     self->scratch = zd_arena_doubles(arena, full->scratch + self->size_of_C + full->mh + 2 * (size_t)m);
     self->layout = zd_layout_create(arena, full);
     if (arena->base) {

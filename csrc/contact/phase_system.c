@@ -45,6 +45,7 @@ int zd_phase_evaluate(zd_phase_system *self, int want, double t, const double *p
     const zd_terms own = {.scratch = self->scratch, .inputs = NULL}, terms = terms_in(self, &own);
     const int status = full->evaluate(full->data, (want & full->provides) | ZD_MOVED, t, p, v, &terms);
     if (!status && want & ZD_PHI_T && !(full->provides & ZD_PHI_T)) zd_clear(zd_constraints(full), terms.Phi_t);
+    self->known = 0;
     return status;
 }
 
@@ -61,7 +62,7 @@ double zd_phase_gap(const zd_phase_system *self, int index)
     return group->kind == ZD_ONE_WAY ? 0 : group->sign * (zd_phase_Phi(self)[group->first] - group->value);
 }
 
-double zd_phase_within(const zd_phase_system *self, int index)
+double zd_phase_range_margin(const zd_phase_system *self, int index)
 {
     const zd_group *group = self->full->group + index;
     if (!group->range) return INFINITY;

@@ -4,8 +4,8 @@
 #include "../point/point.h"
 
 /* State of a group: of a one-sided row open or closed; of two-sided rows released or joined; of friction absent, sticking, or sliding with
- * a slip velocity of this sign. Idle: closed or sticking as others are on which it depends, and which have its force. Behind: within the
- * range of a shape, on its other side, where there is no contact. */
+ * a slip velocity of this sign. Idle: closed or sticking, redundant with other groups, which bear its force. Behind: within the range of a
+ * shape, on its back, and not in contact. */
 enum { ZD_OPEN, ZD_CLOSED, ZD_SLIDES_FORWARD, ZD_SLIDES_BACKWARD, ZD_IDLE, ZD_BEHIND };
 
 static const double ZD_TOUCHING = 1e-10;     /* gap of contacts that take part in a change, relative to the characteristic length */
@@ -46,6 +46,8 @@ struct zd_phase_system {
     zd_read *read;
     const char **name;      /* names of functions that read reactions */
     double *scratch;        /* memory of zd_phase_evaluate() */
+    int known;              /* terms in it that are those of the state (known_t, known_p, known_v), for margins */
+    double known_t, *known_p, *known_v;     /* s, (nq,), (nv,) */
     double *lambda;         /* (full m,): multipliers of all rows, from zd_point_multipliers() */
     int *tie;               /* (groups,) of idle friction: the group that sticks in its place; -1: none */
     double *tie_factor;     /* (groups,) by which its bound counts there */
@@ -72,9 +74,9 @@ const double *zd_phase_Phi(const zd_phase_system *self);
 const double *zd_phase_Phi_t(const zd_phase_system *self);
 const double *zd_phase_xi(const zd_phase_system *self);
 double zd_phase_slip(const zd_phase_system *self, int group, const double *v);
-/* Gap of a one-sided group, and how far its coordinate is within its range: INFINITY without one. */
+/* Gap of a one-sided group; and distance of its coordinate from the ends of its range, negative outside: INFINITY for an unbounded shape. */
 double zd_phase_gap(const zd_phase_system *self, int group);
-double zd_phase_within(const zd_phase_system *self, int group);
+double zd_phase_range_margin(const zd_phase_system *self, int group);
 /* Number of measures of the full system. */
 static inline int zd_own_measures(const zd_system *full) { return full->measures ? full->measures->count : 0; }
 /* Sets the functions of a phase whose rows are known. */
@@ -93,5 +95,7 @@ double zd_friction_bound(const zd_system *full, int group, int which, const doub
  * bounded shape is from the ends of its range. */
 int zd_phase_margin(zd_phase_system *self, const zd_point *point, int group, double t, const double *p, const double *v,
                     double *margin);
+/* Discards the terms of the last margins, as after a change of inputs. */
+static inline void zd_phase_forget(zd_phase_system *self) { self->known = 0; }
 /* True if the margin depends on accelerations and multipliers. */
 int zd_margin_reads_accelerations(const zd_phase_system *self, int group);

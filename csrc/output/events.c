@@ -59,6 +59,8 @@ zd_watch zd_watch_create(zd_arena *arena, const zd_events *events, zd_output *ou
 
 int zd_watch_start(zd_watch *self)
 {
+    zd_phase_system *phase = self->output->stepper->motion->point->phase;
+    if (phase) zd_phase_forget(phase);
     return zd_watch_evaluate_all(self, self->before);
 }
 

@@ -111,22 +111,22 @@ static double vertex(const zd_zeros *self, double *f)
     return self->m - slope / (2 * curvature);
 }
 
-/* Lowers *f to the value at which lines of slopes p through (a, fa), and q through (b, fb), meet between a and b, and *t to its time. */
-static void meet(double a, double fa, double p, double b, double fb, double q, double *t, double *f)
+/* Lowers *f to the value at the intersection, within a to b, of lines with slopes p through (a, fa) and q through (b, fb); *t <- its time. */
+static void intersect(double a, double fa, double p, double b, double fb, double q, double *t, double *f)
 {
     const double x = isinf(p) ? a : isinf(q) ? b : fmin(b, fmax(a, (fb - fa + p * a - q * b) / (p - q)));
     const double value = isinf(p) ? fb + q * (x - b) : fa + p * (x - a);
     if (value < *f) *f = value, *t = x;
 }
 
-/* Least value beside m that a function may have which goes on to a kink with its slopes here, and its time: that of a distance has one. */
-static double kink(const zd_zeros *self, double *f)
+/* Time of the minimum *f around m, if the function goes on with its slopes to a kink, as the distance of two bodies that pass does. */
+static double find_kink(const zd_zeros *self, double *f)
 {
     const double p = (self->fm - self->fa) / (self->m - self->a), q = (self->fb - self->fm) / (self->b - self->m);
     double t = self->m;
     *f = self->fm;
-    if (self->before < q) meet(self->a, self->fa, self->before, self->m, self->fm, q, &t, f);
-    if (p < self->after) meet(self->m, self->fm, p, self->b, self->fb, self->after, &t, f);
+    if (self->before < q) intersect(self->a, self->fa, self->before, self->m, self->fm, q, &t, f);
+    if (p < self->after) intersect(self->m, self->fm, p, self->b, self->fb, self->after, &t, f);
     return t;
 }
 
@@ -134,12 +134,12 @@ static double kink(const zd_zeros *self, double *f)
  * zero. */
 static int continues(zd_zeros *self)
 {
-    double f, least_f, t = vertex(self, &f), t_kink = kink(self, &least_f);
+    double f, f_kink, t = vertex(self, &f), t_kink = find_kink(self, &f_kink);
     const double width = self->b - self->a, middle = self->a + width / 2, least = SHIFT * width;
     if (self->tries++ == MAX_TRIES) return 0;
     if (self->fm > 0 && f > (1 - DEPTH) * self->fm) {
-        if (!(least_f < 0)) return 0;
-        f = least_f, t = fmin(self->b - least, fmax(self->a + least, t_kink));
+        if (!(f_kink < 0)) return 0;
+        f = f_kink, t = fmin(self->b - least, fmax(self->a + least, t_kink));
     }
     if (self->fm <= self->rounding && f >= -self->rounding) return 0;
     if (fabs(t - self->m) < least) t = self->m + copysign(least, middle - self->m);

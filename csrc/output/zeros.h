@@ -16,7 +16,7 @@ typedef struct zd_zeros {
     double sign;            /* sign of the function around an extremum towards zero */
     double a, m, b;         /* s: the extremum lies between a and b, the smallest value is that at m */
     double fa, fm, fb;      /* values times sign there */
-    double before, after;   /* slopes before a and after b; infinite: not known */
+    double before, after;   /* 1/s: slopes of the function before a and after b; infinite: unknown */
     double next;            /* s: time of the requested value */
     double rounding;        /* rounding of the function at m; 0: not known */
     double range;           /* largest magnitude of the function at the points */

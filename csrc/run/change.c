@@ -60,7 +60,7 @@ static int make_impact(zd_contacts *it)
     }
     if (gained <= GAIN * exchanged) return ZD_DONE;
     snprintf(it->run->outcome.message, ZD_MESSAGE, "the impact of contact '%s' and those that touch with it would gain %.3g J: coefficients "
-             "of restitution must be alike, with friction smaller", zd_candidate_group(it, 0)->name, gained);
+             "of restitution must be equal, or friction smaller", zd_candidate_group(it, 0)->name, gained);
     return ZD_SEVERAL_MOTIONS;
 }
 
@@ -153,10 +153,9 @@ static int find_next(zd_contacts *it)
     drop_separating(it);
     int status = find_accelerations(it);
     if (!status && it->count) status = zd_contacts_solve(it, it->count, "the forces");
-    if (!status) status = bring_to_rest(it);
     if (!status && it->normals) status = close_gaps(it);
     if (!status && it->normals) status = zd_contacts_find_rows(it);
-    if (!status && it->normals) status = bring_to_rest(it);
+    if (!status) status = bring_to_rest(it);
     zd_phase *phase = NULL;
     for (int k = 0; k < it->count; k++) it->next[it->group[k]] = it->state[k];
     if (!status) phase = zd_phases_find(it->phases, it->next);

@@ -25,34 +25,34 @@ static signed char find_end(const zd_contacts *it, int g)
     return zd_point_multipliers(it->run->motion.point)[phases->full->group[g].first] > 0 ? ZD_SLIDES_FORWARD : ZD_SLIDES_BACKWARD;
 }
 
-/* True if the coordinate along a bounded shape is beside its range, or at an end and moves out. */
-static int is_beside(const zd_contacts *it, int g)
+/* True if the coordinate along a bounded shape is out of its range, or at an end of it and moves outward. */
+static int is_out_of_range(const zd_contacts *it, int g)
 {
     const zd_phase_system *of = it->phases->present->of;
     const zd_group *group = it->phases->full->group + g;
-    const double within = zd_phase_within(of, g), rounding = ZD_TOUCHING * zd_group_scale(it->phases, group);
+    const double within = zd_phase_range_margin(of, g), rounding = ZD_TOUCHING * zd_group_scale(it->phases, group);
     if (fabs(within) > rounding) return within < 0;
     const zd_row_of_C row = zd_phase_row(of, group->range - 1);
     const double rate = zd_row_times(&row, it->phases->at.v) + zd_phase_Phi_t(of)[group->range - 1];
     return zd_phase_Phi(of)[group->range - 1] - group->lower == within ? rate < 0 : rate > 0;
 }
 
-/* State of a normal row that does not touch, or ZD_CLOSED if it does; -1 if the start penetrates. Within the range of a shape with two
- * sides, the body is on the side to which it came, and in doubt on the first. */
-static int find_place(const zd_contacts *it, int g, int is_start)
+/* State of a normal row by its gap and range: ZD_CLOSED if it touches; -1 if the start penetrates. A body within the range of a shape with
+ * two sides stays on the side from which it entered; a body that starts on the shape is on its first side. */
+static int find_normal_state(const zd_contacts *it, int g, int is_start)
 {
     const zd_phases *phases = it->phases;
     const zd_phase_system *of = phases->present->of;
     const zd_group *group = phases->full->group + g;
     const double gap = zd_phase_gap(of, g), tolerance = (is_start ? ZD_PENETRATION : ZD_TOUCHING) * zd_group_scale(phases, group);
-    const int other = group->other - 1;
+    const int opposite = group->opposite - 1;
     const signed char state = it->next[g];
-    if (state == ZD_CLOSED || state == ZD_IDLE) return group->range && is_beside(it, g) ? ZD_OPEN : ZD_CLOSED;
-    if (group->range && is_beside(it, g)) return ZD_OPEN;
-    if (state == ZD_BEHIND) return other < 0 && gap > -tolerance ? ZD_OPEN : ZD_BEHIND;
+    if (state == ZD_CLOSED || state == ZD_IDLE) return group->range && is_out_of_range(it, g) ? ZD_OPEN : ZD_CLOSED;
+    if (group->range && is_out_of_range(it, g)) return ZD_OPEN;
+    if (state == ZD_BEHIND) return opposite < 0 && gap > -tolerance ? ZD_OPEN : ZD_BEHIND;
     if (gap > tolerance) return ZD_OPEN;
-    if (gap < -tolerance && is_start && (other < 0 || zd_phase_gap(of, other) < -tolerance)) return -1;
-    if (!group->range || gap >= -tolerance) return other >= 0 && it->next[other] == ZD_CLOSED ? ZD_BEHIND : ZD_CLOSED;
+    if (gap < -tolerance && is_start && (opposite < 0 || zd_phase_gap(of, opposite) < -tolerance)) return -1;
+    if (!group->range || gap >= -tolerance) return opposite >= 0 && it->next[opposite] == ZD_CLOSED ? ZD_BEHIND : ZD_CLOSED;
     return ZD_BEHIND;
 }
 
@@ -80,10 +80,10 @@ static int find_normals(zd_contacts *it, int is_start)
     for (int g = 0; g < full->groups && !status; g++) {
         if (!zd_is_normal(full->group[g].kind)) continue;
         const double gap = zd_phase_gap(phases->present->of, g);
-        const int place = find_place(it, g, is_start);
-        if (place < 0) return refuse_start(it, full->group + g, gap);
-        it->next[g] = (signed char)place;
-        if (place == ZD_CLOSED) status = add_candidate(it, g, -1, gap);
+        const int state = find_normal_state(it, g, is_start);
+        if (state < 0) return refuse_start(it, full->group + g, gap);
+        it->next[g] = (signed char)state;
+        if (state == ZD_CLOSED) status = add_candidate(it, g, -1, gap);
     }
     it->normals = it->count;
     for (int k = 0; k < it->normals; k++) it->next[it->group[k]] = ZD_OPEN;

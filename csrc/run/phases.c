@@ -337,6 +337,7 @@ int zd_phases_check(zd_run *run)
 {
     const zd_phases *self = run->phases;
     const int own = self->own ? self->own->count : 0;
+    zd_phase_forget(self->present->of);
     for (int g = 0; g < self->full->groups && !run->watch.ended; g++) {
         const zd_group *group = self->full->group + g;
         const double gap = run->watch.before[own + g];

@@ -63,6 +63,26 @@ def kicked(force, at, gravity=0.0, form=lambda law: law):
     return m
 
 
+def touching_bodies():
+    """The falling box, a disc that rolls off a table onto a hill, gears with backlash and a limit of speed, and a buffer.
+
+    Returned with names of measures of each.
+    """
+    m = falling_box()
+    disc = m.body("disc", 1.0, 0.005, at=(5.0, 1.1))
+    m.contact("table", disc, m.ground.segment((4.5, 1.0), (5.3, 1.0)), radius=0.1, friction=0.4)
+    m.contact("hill", disc, m.ground.circle((5.6, -0.2), 0.5), radius=0.1, restitution=0.4, friction=0.2)
+    wheels = [m.body(f"wheel{i}", 1.0, 0.1, at=(8.0 + i, 0)) for i in range(2)]
+    axles = [m.revolute(f"axle{i}", m.ground, wheel.point((0, 0))) for i, wheel in enumerate(wheels)]
+    m.gear("mesh", *axles, ratio=-1.0, backlash=0.05, restitution=0.3)
+    m.stop("governor", axles[1].speed, lower=-0.5)
+    slide = m.prismatic("slide", m.ground, m.body("block", 1.0, 0.1, at=(12, 0)), at=(12, 0), axis=(1, 0))
+    m.stop("buffer", slide.displacement, lower=-0.1, upper=0.1, stiffness=1e3, damping=0.2, exponent=2.0)
+    m.start({disc.velocity: (0.8, 0.0), disc.angular_velocity: -8.0, axles[0].speed: 2.0, slide.speed: 1.0})
+    return m, ["box.position", "b.force", "disc.position", "hill.force", "wheel1.angle", "mesh.torque", "block.position",
+               "buffer.force"]
+
+
 def falling_box():
     """A square box that falls on the ground, bounces, tips over, slides and sticks."""
     m = zd.Mechanism("box", gravity=(0, -9.81))

@@ -136,10 +136,10 @@ typedef struct zd_group {
                              * number, at most 3; 0: a fixed bound */
     double load_factor[3];  /* factors of these multipliers */
     int is_largest;         /* 1: the load is the largest of their magnitudes; 0: their norm */
-    int range;              /* ZD_ONE_SIDED: 1 + holonomic row, in a group that is not active, whose Phi is a coordinate along the shape that
-                             * is touched; 0: that is unbounded */
-    double lower, upper;    /* range of this coordinate: beside it, and where it has been entered beyond the gap, there is no contact */
-    int other;              /* ZD_ONE_SIDED with a range: 1 + group of the other side of the same shape; 0: none */
+    int range;              /* ZD_ONE_SIDED: 1 + holonomic row, of a group that is not active, whose Phi is the coordinate along a bounded
+                             * shape; 0: the shape is unbounded */
+    double lower, upper;    /* limits of this coordinate: out of them, and behind the shape, a body is not in contact */
+    int opposite;           /* ZD_ONE_SIDED with a range: 1 + group of the opposite side of the same shape; 0: none */
     double restitution;     /* ZD_ONE_SIDED: coefficient of restitution, 0 to 1 */
     double friction[2];     /* ZD_FRICTION: static and sliding: coefficients of the load, or with a fixed bound N or N m */
 } zd_group;

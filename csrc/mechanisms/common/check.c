@@ -121,7 +121,7 @@ static int group_is_right(const tables *of, int i, zd_complaint to)
     const int owners = group->owner == ZD_OF_JOINT ? of->joints : of->elements->relations;
     return (zd_is_in(group->owner, ZD_OF_RELATION + 1) && zd_is_in(group->index, owners) && zd_is_in(group->kind, ZD_ONE_WAY + 1) &&
             zd_is_in(group->normal, of->elements->groups + 1) && (!group->loads || zd_is_in(group->load_joint, of->joints)) &&
-            zd_is_in(group->range, of->elements->relations + 1) && zd_is_in(group->other, of->elements->groups + 1)) ||
+            zd_is_in(group->range, of->elements->relations + 1) && zd_is_in(group->opposite, of->elements->groups + 1)) ||
            zd_complain(to, "group %s: its kind, joint, relation, load, range and other side must exist", group->name);
 }
 

@@ -120,8 +120,8 @@ typedef struct zd_element_group {
     int is_largest;
     double scale, value, restitution;
     double friction[2];
-    int range, other;           /* range: 1 + relation */
-    double lower, upper;
+    int range, opposite;        /* range: 1 + relation of the coordinate along a bounded shape */
+    double lower, upper;        /* limits of that coordinate */
 } zd_element_group;
 
 enum { ZD_MAX_LEAST = 200 };       /* largest number of constraints for which reactions are the least ones: work grows with its cube */

@@ -73,7 +73,7 @@ void zd_elements_set_groups(const zd_elements *elements, const zd_element_parts 
                           .value = of->value, .is_active = of->is_active,
                           .normal = of->normal, .loads = of->loads, .is_largest = of->is_largest, .restitution = of->restitution,
                           .friction = {of->friction[0], of->friction[1]}};
-        group.other = of->other, group.lower = of->lower, group.upper = of->upper;
+        group.opposite = of->opposite, group.lower = of->lower, group.upper = of->upper;
         if (of->range) group.range = 1 + find_row(from, ZD_OF_RELATION, of->range - 1, 0);
         if (of->loads) group.load = find_row(from, ZD_OF_JOINT, of->load_joint, of->load_component);
         memcpy(group.load_factor, of->load_factor, sizeof group.load_factor);

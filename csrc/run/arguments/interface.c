@@ -271,8 +271,9 @@ static int check_switched_group(const zd_system *system, int i, text message)
         return refuse(message, "groups: the restitution of %s must be 0 to 1, and its value finite", group->name);
     if (group->range < 0 || group->range > system->mh || (group->range && !(group->lower < group->upper)))
         return refuse(message, "groups: the range of %s must be of a holonomic row, with lower less than upper", group->name);
-    if (group->other < 0 || group->other > system->groups || (group->other && system->group[group->other - 1].kind != ZD_ONE_SIDED))
-        return refuse(message, "groups: the other side of %s must be a one-sided group", group->name);
+    if (group->opposite < 0 || group->opposite > system->groups
+        || (group->opposite && system->group[group->opposite - 1].kind != ZD_ONE_SIDED))
+        return refuse(message, "groups: the opposite side of %s must be a one-sided group", group->name);
     if (group->kind != ZD_FRICTION) return ZD_DONE;
     if (!(group->friction[1] >= 0 && group->friction[0] >= group->friction[1]))
         return refuse(message, "groups: friction of %s must not be negative, nor sliding friction more than static", group->name);

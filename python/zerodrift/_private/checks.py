@@ -44,6 +44,26 @@ def number(name: str, value: Any, *, above: float | None = None, least: float | 
     return value
 
 
+def restitution(name: str, value: Any) -> float:
+    """A coefficient of restitution, 0 to 1."""
+    value = number(name, value, least=0)
+    if value > 1:
+        raise WrongValue(f"{name} must be at most 1, not {value:g}", "out-of-range")
+    return value
+
+
+def friction(name: str, value: Any) -> tuple[float, float]:
+    """Static and sliding friction, from one number for both or a pair."""
+    pair = (value, value) if np.ndim(value) == 0 else value
+    if len(pair) != 2:
+        raise WrongValue(f"{name} must be a number, or those of static and of sliding friction, not {value!r}", "shape")
+    static, sliding = (number(name, each, least=0) for each in pair)
+    if sliding > static:
+        raise WrongValue(f"sliding {name} must be at most the static one, and {sliding:g} is more than {static:g}",
+                         "out-of-range")
+    return static, sliding
+
+
 def varies(given: Any) -> bool:
     """True of functions, expressions, formulas and tables, and of arrays that have one."""
     return any(callable(each) or hasattr(each, "free_symbols") or hasattr(each, "operations")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -55,22 +55,14 @@ class OneSided:
     friction: float | tuple[float, float] = 0.0
 
     def __post_init__(self) -> None:
-        e = checks.number("restitution", self.restitution)
-        if not 0 <= e <= 1:
-            raise WrongValue(f"restitution must be 0 to 1, not {e:g}")
-        static, sliding = self.coefficients
-        if not static >= sliding >= 0:
-            raise WrongValue(f"friction must be static >= sliding >= 0, not ({static:g}, {sliding:g})")
-        if static and self.slip is None:
+        checks.restitution("restitution", self.restitution)
+        if self.coefficients[0] and self.slip is None:
             raise WrongValue("friction needs slip, the slip velocity", "missing-argument")
 
     @property
     def coefficients(self) -> tuple[float, float]:
         """Coefficients of static and of sliding friction."""
-        pair = self.friction if isinstance(self.friction, Sequence) else (self.friction, self.friction)
-        if len(pair) != 2:
-            raise WrongValue(f"friction must be a number or (static, sliding), not {self.friction!r}")
-        return checks.number("friction", pair[0]), checks.number("friction", pair[1])
+        return checks.friction("friction", self.friction)
 
 
 class Switched(NamedTuple):

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from ..._private import checks
 from ..._private.types import Expression, MeasureLike
 from ...errors import WrongType, WrongValue
@@ -87,11 +85,11 @@ class ContactVerbs(Elements):
         point = given.point((0.0, 0.0)) if isinstance(given, Body) and given.turns else self._point("first", given)
         one, other = self._different(name, shape.body.point(shape.start), point)
         self._turning(name, "line of", one.body)
-        if radius or any(_friction(name, friction)):
+        if radius or any(checks.friction(f"friction of {name!r}", friction)):
             self._turning(name, "friction or radius of", *(body for body in (other.body,) if radius))
         kind = Contact if isinstance(shape, Line) else RoundContact
-        given = restitution_of(name, restitution), _friction(name, friction), _compliance(name, stiffness, damping, exponent)
-        made = kind(name, one, other, radius, shape, *given)
+        e, mu = checks.restitution(f"restitution of {name!r}", restitution), checks.friction(f"friction of {name!r}", friction)
+        made = kind(name, one, other, radius, shape, e, mu, _compliance(name, stiffness, damping, exponent))
         if made.compliance and (restitution or any(made.friction) or made.bounds(AS_GIVEN)):
             raise WrongType(f"{name!r} with stiffness= must have no restitution, no friction, and a shape without ends",
                             "conflicting-arguments")
@@ -154,8 +152,8 @@ class ContactVerbs(Elements):
         if compliance and (restitution or read.is_rate):
             raise WrongType(f"stop {name!r} with stiffness= must be of positions, and have no restitution",
                             "conflicting-arguments")
-        return self._add(Stop(name, of, lower, upper, restitution_of(name, restitution), effort, quantity, read.is_rate,
-                              compliance))
+        restitution = checks.restitution(f"restitution of {name!r}", restitution)
+        return self._add(Stop(name, of, lower, upper, restitution, effort, quantity, read.is_rate, compliance))
 
 
     def latch(self, name: str, joint: Joint | str, *, when: MeasureLike | Expression | Event | None = None,
@@ -224,7 +222,7 @@ def with_switches(m: Elements, joint: Joint, given: Mapping[str, Any]) -> Joint:
         if word in given:
             if joint.dimension == 3 and word == "friction":
                 raise WrongValue(f"friction of {name!r} by its load is for mechanisms in the plane", "not-available")
-            values["friction" if word == "friction" else "bounds"] = _friction(name, given[word], word)
+            values["friction" if word == "friction" else "bounds"] = checks.friction(f"{word} of {name!r}", given[word])
     if len({"bounds", "friction"} & values.keys()) > 1:
         raise WrongType(f"friction of {name!r} must be given by its load or by bounds, not both", "conflicting-arguments")
     if ("radius" in given or "guide" in given or joint.coordinate == "angle") and ("radius" in given) != (
@@ -244,24 +242,3 @@ def _compliance(name: str, stiffness: Any, damping: Any, exponent: Any) -> Compl
     return Compliance(checks.number(f"stiffness of {name!r}", stiffness, above=0),
                       checks.number(f"damping of {name!r}", damping, least=0),
                       checks.number(f"exponent of {name!r}", exponent, least=1))
-
-
-def restitution_of(name: str, given: Any) -> float:
-    """Coefficient of restitution, checked."""
-    value = checks.number(f"restitution of {name!r}", given, least=0)
-    if value > 1:
-        raise WrongValue(f"restitution of {name!r} must be at most 1, not {value:g}", "out-of-range")
-    return value
-
-
-def _friction(name: str, given: Any, what: str = "friction") -> tuple[float, float]:
-    """Static and sliding friction, from one number or two."""
-    values: Any = (given, given) if np.ndim(given) == 0 else given
-    if len(values) != 2:
-        raise WrongValue(f"{what} of {name!r} must be a number, or those of static and of sliding friction, not {given!r}",
-                         "shape")
-    static, sliding = (checks.number(f"{what} of {name!r}", value, least=0) for value in values)
-    if sliding > static:
-        raise WrongValue(f"sliding {what} of {name!r} must be at most the static one, and {sliding:g} is more than {static:g}",
-                         "out-of-range")
-    return static, sliding

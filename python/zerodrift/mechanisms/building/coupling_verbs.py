@@ -14,7 +14,6 @@ from ..elements.measures import Measure, name_of
 from ..elements.numbers import AS_GIVEN
 from ..equations.measure_names import checked_reading
 from ..loads.teeth import mesh
-from .contact_verbs import restitution_of
 from .periodic_spline import periodic_spline
 from .registry import Elements
 
@@ -73,7 +72,7 @@ class CouplingVerbs(Elements):
         return self._linear(name, "gear", (first, ("angle",)), (second, ("angle",)), ratio,
                             self._teeth(name, pressure_angle, helix_angle, radius),
                             backlash=checks.number(f"backlash of {name!r}", backlash, least=0),
-                            restitution=restitution_of(name, restitution))
+                            restitution=checks.restitution(f"restitution of {name!r}", restitution))
 
     def _teeth(self, name: Any, pressure_angle: Any, helix_angle: Any, radius: Any) -> Teeth | None:
         """Geometry of the teeth of a gear; None: without tooth forces."""

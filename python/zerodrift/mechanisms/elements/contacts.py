@@ -70,7 +70,7 @@ class Contact(Joint):
     kind, table = "contact", "rolling"
     takes = ("radius", "shape", "restitution", "friction")
     shape: Any
-    other = 0           # of a part: from its first switch to that of the other side
+    opposite = 0        # index of the first switch of the part on the opposite side, relative to its own
 
     def __init__(self, name: str, first: Point, second: Point, radius: float, shape: Any, restitution: float,
                  friction: tuple[float, float], compliance: Compliance | None = None) -> None:
@@ -88,7 +88,7 @@ class Contact(Joint):
         back = line._replace(start=end, direction=-line.direction)
         sides = [self._part(Contact, f"{self.name} {word}", each) for word, each in (("left", line), ("right", back))]
         count = len(list(sides[0].switches(AS_GIVEN))) + 1      # and that of its range
-        sides[0].other, sides[1].other = count, -count
+        sides[0].opposite, sides[1].opposite = count, -count
         return (*sides, *self._ends(start, end))
 
     def _part(self, kind: type[Contact], name: str, shape: Any) -> Any:
@@ -108,7 +108,7 @@ class Contact(Joint):
 
     @property
     def is_bounded(self) -> bool:
-        """False of unbounded lines."""
+        """True for all shapes but unbounded lines."""
         return isinstance(self.shape, Circle) or self.shape.length < np.inf
 
     def length_with(self, numbers: Numbers) -> float:
@@ -123,7 +123,7 @@ class Contact(Joint):
     def switches(self, numbers: Numbers) -> Iterator[Switch]:
         """Its switched constraints: the gap, and the slip."""
         yield Switch(self.name, "one-sided", restitution=numbers(self.owner, "restitution", self.restitution), sign=self.sign,
-                     other=self.other)
+                     opposite=self.opposite)
         yield Switch(self.name, "friction" if any(self.friction) else "absent", component=1, normal=1,
                      friction=friction_with(numbers, self.owner, "friction", self.friction))
 
@@ -135,18 +135,7 @@ class Contact(Joint):
 class RoundContact(Contact):
     """Contact of a point or a round body with a circle, or with an arc of it, `Mechanism.contact`.
 
-    Attributes
-    ----------
-    name : str
-    first, second : Point
-        The centre of the circle, and the point or the centre of the round body.
-    radius : float
-        In m; 0: a point.
-    shape : Circle
-    restitution : float
-        Coefficient of restitution.
-    friction : tuple of float
-        Coefficients of static and of sliding friction.
+    Its attributes are those of `Contact`; `shape` is a Circle, and `first` its centre.
     """
 
     kind, table = "contact", "circle"
@@ -203,7 +192,7 @@ class Stop(Fixed):
     def __init__(self, name: str, of: str, lower: float | None, upper: float | None, restitution: float, effort: str,
                  quantity: str, is_rate: bool, compliance: Compliance | None) -> None:
         self.name, self.of, self.lower, self.upper, self.restitution, self.effort = name, of, lower, upper, restitution, effort
-        self.quantity, self.is_rate = quantity, is_rate     # of a rate: what it is the rate of
+        self.quantity, self.is_rate = quantity, is_rate     # the measure of positions; True: its rate is limited
         self.compliance = compliance
 
     @property

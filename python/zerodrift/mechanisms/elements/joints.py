@@ -355,7 +355,7 @@ class Coupling(Fixed):
         """Both flanks of the teeth."""
         play, restitution = numbers(self, "backlash", self.backlash), numbers(self, "restitution", self.restitution)
         for word, sign in (("lower", 1), ("upper", -1)):
-            yield Switch(f"{self.name} {word}", "one-sided", of=self.name, sign=sign, value=-sign * play / 2,
+            yield Switch(f"{self.name} {word}", "one-sided", coupling=self.name, sign=sign, value=-sign * play / 2,
                          restitution=restitution)
 
     def __repr__(self) -> str:

@@ -14,7 +14,7 @@ class Switch(NamedTuple):
     name: str
     kind: str                   # "one-sided", "friction" or "two-sided"; "absent": rows that are never active
     along: str = ""             # measure of whose value they are a row
-    of: str = ""                # coupling whose relation they are; "": they are rows of the joint
+    coupling: str = ""          # name of the coupling that they are a row of; "" as well: they are rows of the joint
     component: int = 0
     rows: int = 1
     sign: int = 1
@@ -25,7 +25,7 @@ class Switch(NamedTuple):
     is_largest: bool = False    # True: the largest of them does
     restitution: float = 0.0
     friction: tuple[float, float] = (0.0, 0.0)
-    other: int = 0              # from this switch to that of the other side of the shape; 0: none
+    opposite: int = 0           # index of the switch of the opposite side of the shape, relative to this one; 0: none
 
 
 def of_friction(word: str, values: tuple[float, float]) -> dict[str, float]:

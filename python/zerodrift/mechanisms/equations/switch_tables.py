@@ -27,19 +27,19 @@ def _add(tables: Any, element: Any) -> None:
     for each in element.switches(tables.numbers):
         if each.along and relation < 0:
             relation = _add_row(tables, element, tables._quantity_of(each.along), joint)
-        if each.of:
-            relation = tables.relation_names.index(each.of)
-        owner, number = ("relation", relation) if each.along or each.of else ("joint", joint)
+        if each.coupling:
+            relation = tables.relation_names.index(each.coupling)
+        owner, number = ("relation", relation) if each.along or each.coupling else ("joint", joint)
         group = Group(
             each.name, owner, number, each.component, each.rows, each.kind, each.sign, each.is_active,
             first + each.normal if each.normal else 0, each.loads, joint, each.is_largest,
-            float("ang" in each.along.rpartition(".")[2] or bool(each.of)), each.value, each.restitution,
+            float("ang" in each.along.rpartition(".")[2] or bool(each.coupling)), each.value, each.restitution,
             each.friction)
         if bounds and each.kind == "one-sided":
-            other = 1 + first + each.other if each.other else 0
-            group = group._replace(range=1 + len(tables.relations), other=other, limits=bounds.limits)
+            opposite = 1 + first + each.opposite if each.opposite else 0
+            group = group._replace(range=1 + len(tables.relations), opposite=opposite, limits=bounds.limits)
         tables.groups.append(group)
-    if bounds:      # a row that is never active: its value is the coordinate
+    if bounds:      # constraint that is never active; its residual is the coordinate along the shape
         row = tables.joint_rows[joint]
         quantity = tables._quantity(f"{element.name} range", tables.entries.Quantity(
             "along", row.first, row.second, row.point1, row.point2, bounds.axis))

@@ -40,7 +40,7 @@ class Sketch:
         rolling = [joint for joint in touching if joint not in self.surfaces]
         self.guided = [*self.sliding, *rolling]
         self.switched = [joint for joint in self.guided if may_be_apart(joint)]
-        self.roads = list(_by_line(rolling, numbers).values())
+        self.lines = list(_by_line(rolling, numbers).values())
         self.has_shape = {joint.bodies[1].name for joint in self.sliding} | self.couplings.wheels
         self.has_shape |= {joint.bodies[1].name for joint in touching if joint.length_with(numbers)}
         self.held = _held_by_ground(self.parts)
@@ -113,8 +113,8 @@ class Sketch:
         return min(radius, extent) if extent > APART else radius
 
     def _joints(self, posed: Posed, ranges: Ranges) -> Iterator[Shape]:
-        for road in self.roads:
-            yield Shape("road", posed.line(road, ranges), road[0].name)
+        for joints in self.lines:
+            yield Shape("road", posed.line(joints, ranges), joints[0].name)
         for contact in self.surfaces:
             yield Shape("surface", posed.surface(contact), contact.name, float(isinstance(contact, RoundContact)))
         for joint, kind, pinned in self.kinds:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...errors import sentence
 from ..elements.bodies import Point
-from ..elements.contacts import switching
+from ..elements.contacts import Contact, Stop, switching
 from ..elements.drawing import Drawing
 from ..elements.forces import Actuator, Force, Gravity, Motor
 from ..elements.joints import Joint
@@ -25,8 +25,10 @@ MAX_NAMED = 40         # constraints or loops in a list, at most
 
 def headline(drawing: Drawing) -> str:
     """First line: the number of elements of each kind."""
-    bodies, joints = len(drawing.parts()), len(drawing.of(Joint))
-    known = [*sorted(drawing.of(TableForce), key=lambda force: force.row.number), *drawing.of(Motor), *drawing.of(Actuator)]
+    touching = drawing.of((Contact, Stop))
+    bodies, joints = len(drawing.parts()), len([joint for joint in drawing.of(Joint) if joint not in touching])
+    tabled = sorted(drawing.of(TableForce), key=lambda force: force.row.number)
+    known = [*touching, *tabled, *drawing.of(Motor), *drawing.of(Actuator)]
     forces = [_several(count, kind.replace("_", " ")) for kind, count in Counter(each.kind for each in known).items()]
     gravity = f"gravity ({', '.join(f'{each:g}' for each in drawing.gravity)})" if drawing.gravity.any() else (
         "varying gravity" if drawing.of(Gravity) else "no gravity")

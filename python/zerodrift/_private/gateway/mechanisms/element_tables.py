@@ -136,7 +136,7 @@ class Group(NamedTuple):
     restitution: float = 0.0
     friction: tuple[float, float] = (0.0, 0.0)
     range: int = 0              # 1 + relation of the coordinate along a bounded shape; 0: it is unbounded
-    other: int = 0              # 1 + index of the group of its other side; 0: none
+    opposite: int = 0           # 1 + index of the group of its opposite side; 0: none
     limits: tuple[float, float] = (0.0, 0.0)    # of that coordinate
 
 
@@ -147,7 +147,7 @@ def _written_groups(tables: Any) -> tuple[Any, Any]:
         (name, lib.ZD_OF_JOINT if group.owner == "joint" else lib.ZD_OF_RELATION, group.number, group.component,
          group.rows, GROUP_KINDS[group.kind], group.sign, group.is_active, group.normal, group.load, 0, len(group.loads),
          (*group.loads, 0.0, 0.0, 0.0)[:3], group.is_largest, group.scale, group.value, group.restitution, group.friction,
-         group.range, group.other, *group.limits)
+         group.range, group.opposite, *group.limits)
         for name, group in zip(names, tables.groups, strict=True)]), names
 
 
