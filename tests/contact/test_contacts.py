@@ -271,7 +271,7 @@ def test_arguments_are_refused_by_name():
     wrong = [(lambda: m.stop("a", slide.displacement), "lower="),
              (lambda: m.stop("a", slide.speed, upper=1.0, restitution=0.5), "rate"),
              (lambda: m.stop("a", slide.displacement, lower=1.0, upper=0.0), "less than upper"),
-             (lambda: m.contact("c", m["block"], "floor"), "one of a body"),
+             (lambda: m.contact("c", m["block"], "floor"), "a shape of a body"),
              (lambda: m.contact("c", m["block"], m.ground.line((0, 0), (1, 0)), restitution=1.2), "at most 1"),
              (lambda: m.contact("c", m["block"], m.ground.line((0, 0), (1, 0)), friction=(0.1, 0.2)), "static"),
              (lambda: m.ground.line((0, 0), (0, 0)), "two places"),

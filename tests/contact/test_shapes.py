@@ -163,7 +163,7 @@ def test_a_short_way_through_an_arc_is_not_passed_over(way):
 
 
 @pytest.mark.parametrize(("change", "words"), [
-    (lambda m: m.contact("c", m["disc"], m.ground.circle((0, 5), 0.0)), "the circle is a point"),
+    (lambda m: m.contact("c", m["disc"], m.ground.circle((0, 5), 0.0)), "for a circle of radius 0"),
     (lambda m: m.contact("c", m["disc"], m.ground.circle((0, 5), 0.05, outside=False), radius=BALL), "less than that of the"),
     (lambda m: m.ground.arc((0, 0), (1, 0), (2, 0)), "two directions from its centre"),
     (lambda m: m.ground.segment((1, 0), (1, 0)), "two places"),

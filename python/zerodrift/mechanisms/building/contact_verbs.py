@@ -73,14 +73,14 @@ class ContactVerbs(Elements):
         self._in_the_plane("contact")
         name = self._new_name(name, "contact")
         if not isinstance(shape, Line | Circle):
-            raise WrongType(f"shape of {name!r} must be one of a body, body.line(a, b), body.segment(a, b), body.circle(center, "
-                            f"radius) or body.arc(center, a, b), not {checks.shown(shape)}")
+            raise WrongType(f"shape of {name!r} must be a shape of a body, body.line(a, b), body.segment(a, b), "
+                            f"body.circle(center, radius) or body.arc(center, a, b), not {checks.shown(shape)}")
         radius = checks.number(f"radius of {name!r}", radius, least=0)
         if isinstance(shape, Circle) and not shape.outside and not radius < shape.radius:
             raise WrongValue(f"radius of {name!r} must be less than that of the hole, and {radius:g} is not less than "
                              f"{shape.radius:g}", "out-of-range")
         if isinstance(shape, Circle) and not radius and not shape.radius:
-            raise WrongValue(f"radius of {name!r} must be more than 0, as the circle is a point", "out-of-range")
+            raise WrongValue(f"radius of {name!r} must be greater than 0 for a circle of radius 0", "out-of-range")
         given = self._named("first", first)
         point = given.point((0.0, 0.0)) if isinstance(given, Body) and given.turns else self._point("first", given)
         one, other = self._different(name, shape.body.point(shape.start), point)
