@@ -39,7 +39,9 @@ static int make_impact(zd_contacts *it)
     zd_candidate given[ZD_MAX_CANDIDATES];
     memcpy(given, it->row, sizeof given);
     for (int k = 0; k < rows; k++) {
-        const double e = k < it->normals && fabs(it->w[k]) > zd_rest_speed(it, k) ? zd_candidate_group(it, k)->restitution : 0;
+        const int is_slow = k >= it->normals || fabs(it->w[k]) <= zd_rest_speed(it, k);
+        const double e = is_slow ? 0 : zd_candidate_group(it, k)->restitution;
+        if (k < it->normals && is_slow) it->omitted[k] = -zd_candidate_group(it, k)->restitution * it->w[k];
         it->b[k] = (1 + e) * it->w[k];
         it->row[k].bound[0] = it->row[k].bound[1];
     }
@@ -134,14 +136,30 @@ static int close_gaps(zd_contacts *it)
     return ZD_DONE;
 }
 
+/* Duration of the bounces that are omitted, a geometric series: the first one begins with the speed of the row, and the acceleration towards
+ * the shape is that which the contact prevents. */
+static void add_omitted_time(zd_contacts *it)
+{
+    for (int k = 0; k < it->normals; k++) {
+        const zd_group *group = zd_candidate_group(it, k);
+        const double speed = fmax(it->omitted[k], it->w[k]);
+        double prevented = 0;
+        for (int j = 0; j < it->count; j++)
+            if (j == k || it->row[j].normal == k + 1) prevented += it->W[k * it->count + j] * it->z[j];
+        if (group->kind == ZD_ONE_SIDED && it->state[k] == ZD_CLOSED && speed > STILL * zd_rest_speed(it, k) && prevented > 0)
+            it->run->motion.statistics.omitted_bounce_time += 2 * speed / (prevented * (1 - group->restitution));
+    }
+}
+
 /* Velocities along closed and sticking rows become zero; the second correction removes the rounding of the first. */
 static int bring_to_rest(zd_contacts *it)
 {
-    double z[ZD_MAX_CANDIDATES];
+    double z[ZD_MAX_CANDIDATES], *energy = &it->run->motion.statistics.omitted_bounce_energy;
     int status = ZD_DONE;
     for (int i = 0; i < 2 && !status; i++) {
         zd_contacts_find_velocities(it);
         status = find_correction(it, it->w, z);
+        for (int k = 0; k < it->count && !status && !i; k++) *energy -= z[k] * it->w[k] / 2;
         if (!status) zd_contacts_apply(it, z);
     }
     return status;
@@ -153,6 +171,7 @@ static int find_next(zd_contacts *it)
     drop_separating(it);
     int status = find_accelerations(it);
     if (!status && it->count) status = zd_contacts_solve(it, it->count, "the forces");
+    if (!status) add_omitted_time(it);
     if (!status && it->normals) status = close_gaps(it);
     if (!status && it->normals) status = zd_contacts_find_rows(it);
     if (!status) status = bring_to_rest(it);

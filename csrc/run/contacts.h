@@ -16,6 +16,7 @@ typedef struct zd_contacts {
     double factor[ZD_MAX_CANDIDATES];
     double gap[ZD_MAX_CANDIDATES];
     double w[ZD_MAX_CANDIDATES], b[ZD_MAX_CANDIDATES], z[ZD_MAX_CANDIDATES], after[ZD_MAX_CANDIDATES];
+    double omitted[ZD_MAX_CANDIDATES];      /* m/s: speed that a bounce would have after an impact slower than the rest speed */
     double *g, *x;          /* (count, nv) */
     double *W, *scratch, *zero;     /* (count, count); of the problem; (m,) */
     signed char *next;      /* (groups,) */

@@ -39,6 +39,8 @@ typedef struct zd_statistics {
     double smallest_pivot_time;    /* s: time of that pivot */
     int64_t smallest_pivot_row;    /* constraint of that pivot */
     double energy_corrected;       /* J: largest energy added or removed by one energy correction */
+    double omitted_bounce_time;    /* s: duration of bounces omitted, as contacts that separate slower than the rest speed stay closed */
+    double omitted_bounce_energy;  /* J: their kinetic energy */
 } zd_statistics;
 
 typedef struct zd_warning_limits {  /* beyond these, a completed run gives a warning */

@@ -62,6 +62,26 @@ def test_a_ball_bounces_at_the_times_of_the_closed_form_and_comes_to_rest(how):
     assert abs(sol["ball.position"][-1]).max() < 1e-11
 
 
+@pytest.mark.parametrize("how", [FINE, {"step": 0.01}], ids=str)
+def test_bounces_that_are_omitted_are_the_rest_of_a_geometric_series(how):
+    e, mass, size = 0.6, 2.0, 1e3       # in a large mechanism, where the rest speed is 1 mm/s
+    m = zd.Mechanism("ball", gravity=(0, -G))
+    body = m.particle("ball", mass, at=(0, 1))
+    m.contact("floor", body, m.ground.line((0, 0), (1, 0)), restitution=e)
+    beam = m.link("beam", (0, 0), (size, 0), mass=1.0)
+    m.revolute("root", m.ground, beam.start)
+    m.revolute("tip", m.ground, beam.end)
+    sol = zd.simulate(m, 3.0, **how)
+    speed = np.sqrt(2 * G) * e**np.arange(1, 40)
+    slow = speed[speed <= 1e-6 * size][0]
+    end = np.sqrt(2 / G) * (1 + 2 * e / (1 - e))
+    assert sol.stats["omitted_bounce_energy"] == pytest.approx(mass * slow**2 / 2, rel=1e-4)
+    assert sol.stats["omitted_bounce_time"] == pytest.approx(2 * slow / G / (1 - e), rel=1e-4)
+    assert sol.phases[-1].t0 + sol.stats["omitted_bounce_time"] == pytest.approx(end, abs=1e-7)
+    assert sol.impacts["energy_lost"].sum() + sol.stats["omitted_bounce_energy"] == pytest.approx(mass * G, rel=1e-9)
+    assert abs(sol.energy_violation).max() < 1e-8
+
+
 def test_an_impact_loses_its_impulse_times_the_mean_velocity():
     sol = zd.simulate(ball(0.5, 0.3, speed=2.0), 1.0, **FINE)
     first = sol.impacts[0]

@@ -67,6 +67,9 @@ class Solution(Named, Loaded):
         * `omega_h`: largest product of the motion's angular frequency and a fixed step, small if an explicit method is accurate.
         * `largest_kinetic`: in J; it and `omega_h` are evaluated every few steps.
         * `energy_corrected`: largest error of the energy balance that a single correction removed, in J.
+        * `omitted_bounce_time`, `omitted_bounce_energy`: duration in s and kinetic energy in J of bounces omitted as contacts
+          that separate slower than the rest speed stay closed, summed over contacts. The energy balance includes the energy;
+          `impacts` do not. The duration is infinite for a coefficient of restitution of 1.
         * `part_error`: estimated error that about a thousand successive fixed steps make in the motion of one coordinate (with
           `kinematics`, one velocity or rotation), in rad or relative to the mechanism's length; `part`: the coordinate with the
           largest one, or the velocity whose rate jumps where the step size has collapsed. `unresolved`: number of checks at
