@@ -62,6 +62,28 @@ def test_other_options_and_sources_beside_the_core_are_compiled_anew(compiled):
     assert compiled == ["page.c", "page.c"]
 
 
+def test_libraries_are_made_by_their_own_commands_and_kept(compiled):
+    made = [core_build.compiled(core(), ["cc"], [f"-O{level}"], join=JOIN, product="core.o",
+                                libraries={"sine.o": ["zig", "-o", "sine.o", str(Path(wasm.__file__))]}) for level in (2, 2, 1)]
+    assert all(f"{wasm.__file__} zig -o\n".encode() in each for each in made)
+    assert compiled.count(str(Path(wasm.__file__))) == 2
+
+
+def test_the_whole_c_library_is_taken_if_its_parts_do_not_compile(monkeypatch):
+    monkeypatch.setattr(wasm.compilers, "zig", lambda: "zig")
+    calls = []
+
+    def made(*_, join, libraries=None, **__):
+        calls.append(join)
+        if libraries:
+            raise wasm.CompilationFailed("zig must compile the core, and failed: error: no")
+        return b"core"
+
+    monkeypatch.setattr(core_build, "compiled", made)
+    assert wasm.core() == b"core"
+    assert ["-nostdlib" in each for each in calls] == [True, False]
+
+
 def test_what_is_compiled_is_said_with_progress(compiled, monkeypatch, capsys):
     monkeypatch.setattr(progress_message, "PATIENCE", 0.0)
     monkeypatch.setattr(core_build, "EVERY", 0.0)

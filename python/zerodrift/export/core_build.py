@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 from ..errors import CompilationFailed
 from ..symbolics.compile import cache
@@ -20,19 +21,20 @@ from .core_files import CoreFiles, included
 
 EVERY = 5.0         # s between messages
 LATEST = 1000       # objects that are kept
+NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
 def compiled(files: CoreFiles, command: Sequence[str], options: Sequence[str], *, join: Sequence[str], product: str,
-             more: Mapping[str, str] = MappingProxyType({})) -> bytes:
+             more: Mapping[str, str] = NOTHING, libraries: Mapping[str, Sequence[str]] = NOTHING) -> bytes:
     """Product of the sources of a core, and of `more` by their names: compiled with `options`, and joined by the command `join`,
-    whose next words are the product and the objects.
+    whose next words are the product, the objects, and `libraries`: files by name, each with the command that writes it.
 
     Raises
     ------
     CompilationFailed
         With the first error of the compiler.
     """
-    key = f"core-{cache.digest_of(list(command), list(options), list(join), files.texts, dict(more))}"
+    key = f"core-{cache.digest_of(list(command), list(options), list(join), files.texts, dict(more), dict(libraries))}"
     found = cache.get(key)
     if found is None:
         with tempfile.TemporaryDirectory() as name, Progress("core", shown=True) as say:
@@ -40,8 +42,9 @@ def compiled(files: CoreFiles, command: Sequence[str], options: Sequence[str], *
             files.write(here)
             for file, text in more.items():
                 (here / file).write_text(text, encoding="utf-8")
-            objects = _objects(_digests(files, more), here, [*command, *options], say)
-            say("joining objects" + (", with the C library of zig, which it compiles once" if "zig" in join[0] else ""))
+            objects = _objects(_digests(files, more), here, [*command, *options], libraries, say)
+            whole = "zig" in join[0] and not libraries
+            say("joining objects" + (", with the C library of zig, which it compiles once" if whole else ""))
             run([*join, product, *objects], here)
             found = (here / product).read_bytes()
         cache.put(key, found)
@@ -56,25 +59,28 @@ def _digests(files: CoreFiles, more: Mapping[str, str]) -> dict[str, str]:
     return {path: cache.digest_of(path, each) for path, each in own.items()}
 
 
-def _objects(sources: Mapping[str, str], here: Path, compiling: Sequence[str], say: Progress) -> list[str]:
-    """Names of the objects of sources, by their digests; those of earlier cores are taken from the cache, where all are kept."""
+def _objects(sources: Mapping[str, str], here: Path, compiling: Sequence[str], libraries: Mapping[str, Sequence[str]],
+             say: Progress) -> list[str]:
+    """Names of libraries and of the objects of sources, by their digests; those of earlier cores are taken from the cache."""
     pack = f"objects-{cache.digest_of(list(compiling))}"
     known = _unpacked(cache.get(pack))
-    names = {path: f"{number}.o" for number, path in enumerate(sources)}
-    missing = [path for path, digest in sources.items() if digest not in known]
-    for path in sources.keys() - {*missing}:
-        (here / names[path]).write_bytes(known[sources[path]])
+    commands = {**libraries, **{f"{number}.o": [*compiling, "-I.", "-c", "-o", f"{number}.o", path]
+                                for number, path in enumerate(sources)}}
+    digests = dict(zip(commands, [*(cache.digest_of(list(each)) for each in libraries.values()), *sources.values()], strict=True))
+    missing = [name for name, digest in digests.items() if digest not in known]
+    for name in digests.keys() - {*missing}:
+        (here / name).write_bytes(known[digests[name]])
     said = time.monotonic()
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-        made = [pool.submit(run, [*compiling, "-I.", "-c", "-o", names[path], path], here) for path in missing]
+        made = [pool.submit(run, commands[name], here) for name in missing]
         for count, one in enumerate(as_completed(made)):
             one.result()
             if not count or time.monotonic() - said > EVERY:
                 said = time.monotonic()
                 say(f"compiling {len(missing)} files with {Path(compiling[0]).name}, once; {count + 1} are done")
     if missing:
-        cache.put(pack, _packed({**known, **{sources[path]: (here / names[path]).read_bytes() for path in missing}}))
-    return list(names.values())
+        cache.put(pack, _packed({**known, **{digests[name]: (here / name).read_bytes() for name in missing}}))
+    return [*commands]
 
 
 def _unpacked(pack: bytes | None) -> dict[str, bytes]:

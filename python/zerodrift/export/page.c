@@ -1,8 +1,17 @@
 /* The core in WebAssembly: plain functions over a block and its open run, see core.js. */
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "block/open_run/opened.h"
+
+/* Parts of the C library that need a system: a clock that stands still, which gives steps all their time; no locales. */
+#define SYSTEM __attribute__((weak))
+SYSTEM _Thread_local int errno;
+SYSTEM int timespec_get(struct timespec *t, int base) { return *t = (struct timespec){0}, base; }
+SYSTEM char *strerror(int code) { (void)code; return ""; }
+SYSTEM int wctomb(char *text, wchar_t code) { (void)text; (void)code; return -1; }
 
 #define PAGE(type, name) __attribute__((export_name(#name))) type name
 enum { MESSAGE = 2000 };
