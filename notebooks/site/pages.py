@@ -156,7 +156,7 @@ def first_clause(meaning: str) -> str:
 KINDS = {
     "Linkages": ("four_bar", "hoecken", "chebyshev_lambda", "watt", "peaucellier", "pantograph", "stephenson", "jansen", "klann", "bennett"),
     "Machines": ("slider_crank", "spatial_slider_crank", "quick_return", "toggle_press", "scissor_lift", "cam_follower", "planetary_gear",
-                 "hookes_joint", "double_cardan", "flyball_governor", "andrews", "geneva", "trebuchet"),
+                 "hookes_joint", "double_cardan", "flyball_governor", "andrews", "geneva", "anchor_escapement", "trebuchet"),
     "Vehicles": ("quarter_car", "suspension", "double_wishbone", "bicycle", "whipple_bicycle", "snakeboard", "compass_gait"),
     "Robots": ("delta_robot", "stewart_platform"),
     "Tops and rolling": ("heavy_top", "gyroscope", "rolling_disc", "coin", "rattleback"),

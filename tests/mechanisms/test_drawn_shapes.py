@@ -8,6 +8,7 @@ import pytest
 import zerodrift as zd
 from support import refused
 from zerodrift.player.live import live_view
+from zerodrift.plot.glyphs import GLYPHS
 
 CORNERS = np.array([(-0.5, 0.0), (0.5, 0.0), (0.4, 0.3), (0.0, 0.1), (-0.4, 0.3)])      # not convex
 
@@ -32,6 +33,7 @@ def test_corners_are_drawn_at_the_pose_of_the_body():
     c, s = np.cos(angle), np.sin(angle)
     assert found.kind == "cam"
     assert found.points == pytest.approx(place + CORNERS @ np.array([[c, s], [-s, c]]), abs=1e-12)
+    assert np.array_equal(GLYPHS["cam"].draw(found, 0.1)[0].path.vertices[:len(CORNERS)], found.points)
     assert np.array_equal(sol.p, zd.simulate(plain, 0.4, step=0.01).p)
 
 

@@ -135,3 +135,59 @@ def test_a_geneva_drive_has_the_angle_and_the_force_of_the_closed_form(slots):
         assert np.linalg.norm(sol[f"slot {i + 1}.force"][at], axis=1) == pytest.approx(abs(force[at]), rel=1e-6, abs=1e-7)
     assert np.allclose(sol.impacts["energy_lost"], 0, atol=1e-20)
     assert radius == pytest.approx(math.sqrt(distance**2 - a**2))
+
+
+def seen_from(place, angle, origin):
+    """Coordinates (2,) of a place in a frame that is turned about an origin."""
+    x, y = place - origin
+    return sp.Matrix([sp.cos(angle) * x + sp.sin(angle) * y, sp.cos(angle) * y - sp.sin(angle) * x])
+
+
+@pytest.mark.parametrize(("restitution", "within"), [(0.0, 1e-9), (0.3, 1e-5)])      # bounces end at different speeds
+def test_an_anchor_escapement_ticks_like_one_tooth_after_the_other(restitution, within):
+    """A tooth on its pallet until it drops off the end; then the next one, half a pitch behind, on the other pallet."""
+    radius, pitch, lift, drop = 0.04, 2 * math.pi / 15, math.radians(3), math.radians(2)
+    side, push = 2.25 * pitch, pitch / 4 - drop / 2
+    swing, turn = Q[:2]         # of the pendulum, and of the tooth clockwise from the top
+    tooth = seen_from(radius * sp.Matrix([sp.sin(turn), sp.cos(turn)]), swing, sp.Matrix([0, radius / math.cos(side)]))
+    energy = 0.5 * 0.25**2 * V[0]**2 / 2 + 0.5 * 0.02 * radius**2 * V[1]**2 / 2
+    machines, ends = [], []
+    for sign in (-1, 1):        # entry, exit
+        start, end = (tooth.subs({swing: by * lift, turn: sign * side + at}).evalf() for by, at in ((-sign, -push), (sign, push)))
+        along = (end - start) / (end - start).norm()
+        gap = along[1] * (tooth - end)[0] - along[0] * (tooth - end)[1]
+        contact = Contact(gap, along.dot(velocity(tooth, 2)), restitution, (0.1, 0.1))
+        machines.append(Machine(Q[:2], V[:2, :], T, energy, -0.5 * G * 0.25 * sp.cos(swing), [contact], [-1e-3 * V[0], 2e-3]))
+        ends.append(sp.lambdify([Q[:2]], along.dot(tooth - end)))
+    m = zd.models.anchor_escapement(restitution=restitution)
+    at = m["entry 1"].second.drawn
+    sol = zd.simulate(m, 1.6, **FINE)
+    q, v, t, found = np.array([math.radians(7), math.atan2(*at)]), np.zeros(2), 0.0, []
+    for tick in range(4):
+        t, q, v, impacts, _ = machines[tick % 2].run(
+            q, v, 1.6, t=t, until=lambda t, y, end=ends[tick % 2]: end(y[:2]), rest=1e-7, max_step=0.01)
+        found.append(impacts[:4])
+        q[1] += (-5 if tick % 2 else 4) * pitch * (t < 1.6)
+    assert t == 1.6
+    expected = [each.t for impacts in found for each in impacts]
+    assert len(expected) == (16 if restitution else 4)
+    hits = sol.impacts["t"]
+    assert [hits[abs(hits - each).argmin()] for each in expected] == pytest.approx(expected, abs=within)
+    assert sol["pivot.angle"][-1] == pytest.approx(q[0], abs=within)
+
+
+def test_an_anchor_escapement_comes_to_the_swing_at_which_its_weight_pays_for_what_is_lost():
+    """From two starts; without friction, what is lost is that of the air and of the impacts."""
+    swings = []
+    for angle in (0.1, 0.2):
+        m = zd.models.anchor_escapement(bob_mass=0.03, torque=2e-3, damping=3e-3, friction=0.0, restitution=0.0, angle=angle)
+        sol = zd.simulate(m, 8.0, rtol=1e-7, events=[zd.Event(m["pivot"].angle, direction=-1)])
+        begin, end = sol.t_events[0][[-4, -1]]
+        inside = (sol.t >= begin) & (sol.t <= end)
+        swings.append(np.ptp(sol["pivot.angle"][inside]))
+    assert swings[0] == pytest.approx(swings[1], rel=1e-4)
+    t = np.linspace(begin, end, 401)
+    air = 3e-3 * np.trapezoid([sol(each)[1][1]**2 for each in t], t)
+    lost = sol.impacts["energy_lost"][(sol.impacts["t"] > begin) & (sol.impacts["t"] < end)]
+    assert len(lost) == 6
+    assert air + lost.sum() == pytest.approx(3 * 2 * math.pi / 15 * 2e-3, rel=5e-4)       # in three swings there and back

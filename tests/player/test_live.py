@@ -35,7 +35,7 @@ def test_it_simulates_on_its_constraints_without_an_error(browser, exhibit, tmp_
     made = live_view(exhibit.made(), step=min(exhibit.step, 0.01), speed=exhibit.speed, **dict(exhibit.options))
     view = opened(browser, made, tmp_path)
     assert len(view.page) < LARGEST
-    assert len(view.linked("core_bytes.js", "player.js")) < LARGEST / 30
+    assert len(view.linked("core_bytes.js", "player.js")) < LARGEST / 12
     browser.evaluate(f"globalThis.began = {{time: {TIME}, picture: document.getElementById('picture').toDataURL()}}; null")
     browser.until(f"{TIME} > began.time + {0.1 * exhibit.speed} && "
                   "document.getElementById('picture').toDataURL() !== began.picture")

@@ -99,6 +99,9 @@ def _lines_of(node: ast.stmt) -> set[int]:
 
 
 TABLE = [
+    Exhibit("anchor_escapement",
+            "Each swing lets half a tooth pass, which pushes the pendulum; then the pendulum turns the wheel back a little.",
+            5.0, 0.005, speed=0.6),
     Exhibit("andrews",
             "A constant moment spins the crank up to two and a half turns in 0.03 s, and three chains of links follow its"
             " coupler.",
@@ -208,7 +211,7 @@ def exhibits() -> list[Exhibit]:
     --------
     >>> from zerodrift import gallery
     >>> len(gallery.exhibits())
-    40
+    41
     """
     return [exhibit(name) for name in _models()]
 

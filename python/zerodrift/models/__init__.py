@@ -9,6 +9,7 @@ All are mechanisms, from bodies and joints or, linkages, from a sketch: in the p
 True
 """
 
+from .anchor_escapement import anchor_escapement
 from .andrews import andrews
 from .bicycle import bicycle
 from .cam_follower import cam_follower
@@ -52,12 +53,12 @@ from .toggle_press import toggle_press
 from .trebuchet import trebuchet
 from .watt import watt
 
-__all__ = ["andrews", "bennett", "bicycle", "cam_follower", "chain", "chebyshev_lambda", "closed_pendulum", "coin",
-           "compass_gait", "delta_robot", "double_cardan", "double_wishbone", "flyball_governor", "four_bar", "four_bars",
-           "geneva", "gyroscope", "heavy_top", "hoecken", "hookes_joint", "jansen", "klann", "pantograph", "peaucellier",
-           "planetary_gear", "quarter_car", "quick_return", "rattleback", "rolling_disc", "scissor_lift",
-           "slider_crank", "snakeboard", "spatial_slider_crank", "stephenson", "stewart_platform", "suspension",
-           "toggle_press", "trebuchet", "watt", "whipple_bicycle"]
+__all__ = ["anchor_escapement", "andrews", "bennett", "bicycle", "cam_follower", "chain", "chebyshev_lambda", "closed_pendulum",
+           "coin", "compass_gait", "delta_robot", "double_cardan", "double_wishbone", "flyball_governor", "four_bar",
+           "four_bars", "geneva", "gyroscope", "heavy_top", "hoecken", "hookes_joint", "jansen", "klann", "pantograph",
+           "peaucellier", "planetary_gear", "quarter_car", "quick_return", "rattleback", "rolling_disc", "scissor_lift",
+           "slider_crank", "snakeboard", "spatial_slider_crank", "stephenson", "stewart_platform", "suspension", "toggle_press",
+           "trebuchet", "watt", "whipple_bicycle"]
 
 
 def __dir__() -> list[str]:

@@ -226,13 +226,13 @@ def rack(shape: Shape, size: float) -> list[Mark]:
 
 
 def cam(shape: Shape, size: float) -> list[Mark]:
-    """A cam by the path (n, 2) of its roller's centre around it: the profile is that path, less the roller."""
+    """A plate by its corners (n, 2); `number` 1: a cam by the path of its roller's centre, less the roller."""
     path = shape.points
     along = np.roll(path, -1, axis=0) - np.roll(path, 1, axis=0)
     following = np.roll(path, -1, axis=0)
     turn = np.sign(np.sum(path[:, 0] * following[:, 1] - path[:, 1] * following[:, 0]))
     inward = turn * np.column_stack([-along[:, 1], along[:, 0]]) / np.maximum(np.hypot(*along.T), 1e-300)[:, None]
-    return [area(path + ROLLER * size * inward, face=TINT, edge=EDGE, width=1.6)]
+    return [area(path + shape.number * ROLLER * size * inward, face=TINT, edge=EDGE, width=1.6)]
 
 
 ROLLER = 1.5        # the radius of a cam's roller

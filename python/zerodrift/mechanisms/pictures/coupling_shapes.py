@@ -125,7 +125,7 @@ class Cam(NamedTuple):
     def shapes(self, posed: Posed) -> Iterator[Shape]:
         """Shapes of the cam and the roller."""
         centre, angle = posed.at(self.joint.second), posed.pose(self.joint.bodies[1].name).angle
-        yield Shape("cam", np.array([centre + turned(angle, place) for place in self.path]), self.name)
+        yield Shape("cam", np.array([centre + turned(angle, place) for place in self.path]), self.name, 1.0)
         yield Shape("roller", posed.pose(self.follower.name).point(self.roller)[None], self.name)
 
 

@@ -19,13 +19,14 @@ from .plane_pose import Parts, Posed
 
 def forces(posed: Posed) -> Iterator[Shape]:
     """All shapes of forces of a mechanism."""
-    drawing = posed.parts.drawing
+    parts, drawing = posed.parts, posed.parts.drawing
     for element in drawing.of((TableForce, Actuator)):
         if element.first:
             yield from _between(element, posed)
     for spring in (each for each in drawing.of(TableForce) if each.joint):
         angle = posed.pose(spring.joint.bodies[1].name).angle - posed.pose(spring.joint.bodies[0].name).angle
-        yield Shape("spiral", posed.at(spring.joint.second)[None], spring.name, angle)
+        if parts.numbers(spring, "stiffness", spring.values.get("stiffness", 1.0)) != 0:        # with 0, a damper
+            yield Shape("spiral", posed.at(spring.joint.second)[None], spring.name, angle)
     for motor in drawing.of(Motor):
         yield _motor(motor, posed)
     for force in drawing.of(Force):
