@@ -56,9 +56,57 @@ def test_round_bodies_push_each_other_apart_and_a_hole_holds_one():
     assert sol["hole.force"][:, 0].min() < 0
 
 
+RADIUS, LOW, HIGH = 0.5, 0.3, 2.5       # of an arc
+
+
+def on_segment(place):
+    """Its point (2,) that is nearest."""
+    return np.array([min(max(place[0], 0), 1), 0])
+
+
+def on_arc(place):
+    middle = (LOW + HIGH) / 2
+    off = (np.arctan2(place[1], place[0]) - middle + np.pi) % (2 * np.pi) - np.pi
+    return at(middle + min(max(off, LOW - middle), HIGH - middle))
+
+
+def at(angle):
+    return RADIUS * np.array([np.cos(angle), np.sin(angle)])
+
+
+SHAPES = {"segment": (on_segment, lambda body: body.segment((0, 0), (1, 0))),
+          "arc": (on_arc, lambda body: body.arc((0, 0), at(LOW), at(HIGH))),
+          "hole": (on_arc, lambda body: body.arc((0, 0), at(LOW), at(HIGH), outside=False))}
+
+
+@pytest.mark.parametrize(("shape", "start", "speed"), [
+    ("segment", (1.05, 0.3), (0, 0)), ("segment", (0.97, 0.3), (0.3, 0)), ("segment", (-0.3, -0.02), (2, 3)),
+    ("segment", (0.5, -0.3), (0.5, 3)), ("arc", (0.1, 0.8), (0.3, 0)), ("arc", (0.46, 0.5), (0, 0)), ("hole", (0, 0), (1.5, 2))])
+def test_the_nearest_point_of_a_bounded_shape_pushes(shape, start, speed, tmp_path):
+    """Over its ends, on both sides, as a program of its own has it."""
+    nearest, made = SHAPES[shape]
+    law = {"stiffness": 2e3, "damping": 0.1, "exponent": 1.5}
+    m = zd.Mechanism("ball", gravity=(0, -G))
+    ball = m.body("ball", 1.0, 0.01, at=start)
+    m.contact("edge", ball, made(m.ground), radius=0.1, **law)
+    m.start({ball.velocity: speed})
+    sol = zd.simulate(zd.load(m.save(tmp_path / "m.json")), 0.6, **FINE)
+
+    def rates(t, y):
+        away = y[:2] - nearest(y[:2])
+        along = away / np.hypot(*away)
+        return [*y[2:], *(push(0.1 - np.hypot(*away), -along @ y[2:], **law) * along - [0, G])]
+    found = solve_ivp(rates, (0, 0.6), [*start, *speed], rtol=1e-10, atol=1e-12, max_step=5e-3).y[:, -1]
+    assert [*sol["ball.position"][-1], *sol["ball.velocity"][-1]] == pytest.approx(found, abs=1e-6)
+    assert np.abs(sol["edge.force"]).max() > 5
+    assert np.abs(sol.energy_violation).max() < 1e-9
+
+
 @pytest.mark.parametrize(("given", "words"), [({"restitution": 0.5}, "no restitution"), ({"friction": 0.5}, "no friction"),
                                               ({"exponent": 0.5}, "exponent of 'c'"), ({"damping": -1.0}, "damping of 'c'")])
 def test_what_does_not_go_together_is_refused(given, words):
     m = zd.Mechanism("m")
     with pytest.raises((ValueError, TypeError), match=words):
         m.contact("c", m.particle("p", 1.0, at=(0, 1)), m.ground.line((0, 0), (1, 0)), **{"stiffness": 1e4, **given})
+    with pytest.raises(TypeError, match="radius= for a shape with ends"):
+        m.contact("c", m["p"], m.ground.segment((0, 0), (1, 0)), stiffness=1e4)

@@ -50,7 +50,7 @@ class ContactVerbs(Elements):
         stiffness, damping, exponent : float
             Law of a compliant contact instead, after Hunt and Crossley: its force at a depth d is
             ``stiffness * d**exponent * (1 + damping * d')``, at least 0; damping in s/m. It has no restitution
-            and no friction, and its shape must have no ends.
+            and no friction. The nearest point of a segment or an arc pushes a round body away, from both sides.
 
         Returns
         -------
@@ -90,8 +90,8 @@ class ContactVerbs(Elements):
         kind = Contact if isinstance(shape, Line) else RoundContact
         e, mu = checks.restitution(f"restitution of {name!r}", restitution), checks.friction(f"friction of {name!r}", friction)
         made = kind(name, one, other, radius, shape, e, mu, _compliance(name, stiffness, damping, exponent))
-        if made.compliance and (restitution or any(made.friction) or made.bounds(AS_GIVEN)):
-            raise WrongType(f"{name!r} with stiffness= must have no restitution, no friction, and a shape without ends",
+        if made.compliance and (restitution or any(made.friction) or (made.bounds(AS_GIVEN) and not radius)):
+            raise WrongType(f"{name!r} with stiffness= must have no restitution, no friction, and radius= for a shape with ends",
                             "conflicting-arguments")
         return self._add(made)
 

@@ -82,24 +82,30 @@ class Contact(Joint):
     def parts(self) -> tuple[Joint, ...]:
         """Itself; of a segment its left and right side, and for a round body its ends."""
         line = self.shape
+        if self.compliance:
+            return ()
         if line.length == np.inf:
-            return () if self.compliance else (self,)
-        start, end = (np.asarray(at) for at in (line.start, line.start + line.length * line.direction))
-        back = line._replace(start=end, direction=-line.direction)
+            return (self,)
+        back = line._replace(start=self.ends[1], direction=-line.direction)
         sides = [self._part(Contact, f"{self.name} {word}", each) for word, each in (("left", line), ("right", back))]
         count = len(list(sides[0].switches(AS_GIVEN))) + 1      # and that of its range
         sides[0].opposite, sides[1].opposite = count, -count
-        return (*sides, *self._ends(start, end))
+        return (*sides, *self.end_parts())
+
+    @property
+    def ends(self) -> list[np.ndarray]:
+        """Ends (2,) of a bounded shape in the frame of its body."""
+        return [np.asarray(self.shape.start + s * self.shape.direction) for s in (0.0, self.shape.length)]
 
     def _part(self, kind: type[Contact], name: str, shape: Any) -> Any:
         part = kind(name, Point(shape.body, shape.start), self.second, self.radius, shape, self.restitution, self.friction)
         part.owner = self
         return part
 
-    def _ends(self, start: np.ndarray, end: np.ndarray) -> list[Any]:
+    def end_parts(self) -> list[Any]:
         """Parts that a round body touches beside a bounded shape."""
         return [self._part(RoundContact, f"{self.name} {word}", Circle(self.shape.body, at, 0.0, True, np.array([1.0, 0.0])))
-                for word, at in (("start", start), ("end", end)) if self.radius]
+                for word, at in zip(("start", "end"), self.ends, strict=True) if self.radius]
 
     def bounds(self, numbers: Numbers) -> Bounds | None:
         """Range of the shape; None if it is unbounded."""
@@ -144,11 +150,16 @@ class RoundContact(Contact):
     def parts(self) -> tuple[Joint, ...]:
         """Itself, and of an arc its ends, if a round body touches it."""
         circle = self.shape
-        if circle.half_angle == np.pi:
-            return () if self.compliance else (self,)
-        towards = complex(*circle.direction) * circle.radius
-        turned = (towards * np.exp(1j * angle) for angle in (-circle.half_angle, circle.half_angle))
-        return (self, *self._ends(*(circle.start + np.array([at.real, at.imag]) for at in turned)))
+        if self.compliance:
+            return ()
+        return (self,) if circle.half_angle == np.pi else (self, *self.end_parts())
+
+    @property
+    def ends(self) -> list[np.ndarray]:
+        """Ends (2,) of an arc in the frame of its body."""
+        towards = complex(*self.shape.direction) * self.shape.radius
+        turned = (towards * np.exp(1j * angle) for angle in (-self.shape.half_angle, self.shape.half_angle))
+        return [self.shape.start + np.array([at.real, at.imag]) for at in turned]
 
     @property
     def sign(self) -> int:      # type: ignore[override]

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from ..._private.gateway.mechanisms.element_tables import GeneralizedForce, Group, OutputSpec, Relation
-from ..elements.contacts import Contact, Stop, switching
+from ..elements.contacts import Contact, RoundContact, Stop, switching
 from ..elements.table_forces import UNITS
 from ..elements.user_functions import Law
 from .function_calls import ForceLaw
@@ -50,27 +51,68 @@ def _add(tables: Any, element: Any) -> None:
 
 
 def _add_force(tables: Any, element: Any) -> None:
-    """Add the force of a compliant contact along its gap, or of a stop along its measure."""
+    """Add the force of a compliant contact along the gap of each part, or of a stop along its measure."""
     push = element.compliance.with_numbers(element, tables.numbers).law()
+    first, effort = len(tables.forces), "force"
     if isinstance(element, Stop):
-        quantity, (word, size) = tables._quantity_of(element.quantity), ("force value", 1)
+        effort, quantity = element.effort, tables._quantity_of(element.quantity)
         lower, upper = (None if value is None else tables.numbers(element, limit, value)
                         for limit, value in (("lower", element.lower), ("upper", element.upper)))
 
         def force(x: Any, rate: Any) -> Any:
             below = 0.0 if lower is None else push(x - lower, rate)
             return below if upper is None else below - push(upper - x, -rate)
+        _add_law(tables, element, force, [quantity])
     else:
-        quantity, (word, size) = tables._quantity(f"{element.name} gap", _gap(tables, element)), ("force sum", 1)
-        sign = element.sign
+        for part, law in _laws(element, push, tables.numbers):
+            inputs = [tables._quantity(f"{part.name} gap", _gap(tables, part))]
+            if bounds := element.bounds(tables.numbers):
+                row = tables._joint(element)
+                inputs += [tables._quantity(f"{element.name} {word}", tables.entries.Quantity(
+                    "along", row.first, row.second, row.point1, row.point2, axis))
+                    for word, axis in (("along", bounds.axis), ("across", (-bounds.axis[1], bounds.axis[0])))]
+            _add_law(tables, element, law, inputs)
+    word, size = ("force value", 1) if isinstance(element, Stop) else ("force sum", len(tables.forces) - first)
+    tables.observed.append(OutputSpec(f"{element.name}.{effort}", UNITS[effort], word, first, size))
 
-        def force(x: Any, rate: Any) -> Any:
-            return sign * push(sign * x, sign * rate)
-    bound = Law(f"force of {element.kind} {element.name!r}", force, of={"x": f"{element.name}.x", "rate": f"{element.name}.rate"})
-    row = tables.laws.add(ForceLaw(bound, [(0, False), (0, True)], tables.parameters))
-    effort = element.effort if isinstance(element, Stop) else "force"
-    tables.observed.append(OutputSpec(f"{element.name}.{effort}", UNITS[effort], word, len(tables.forces), size))
-    tables.forces.append(GeneralizedForce("law", quantity, law=row, inputs=[quantity], what=bound.what))
+
+def _laws(contact: Contact, push: Any, numbers: Any) -> list[tuple[Contact, Any]]:
+    """Parts of a compliant contact and their forces: functions of the gap, its rate, and coordinates along and across a bounded
+    shape, whose nearest point pushes.
+    """
+    sign, bounds, radius = contact.sign, contact.bounds(numbers), contact.length_with(numbers)
+    if not bounds:
+        return [(contact, lambda x, rate: sign * push(sign * x, sign * rate))]
+    is_arc, length = isinstance(contact, RoundContact), bounds.limits[1]
+    cosine = math.cos(contact.shape.half_angle) if is_arc else 0.0
+
+    def beside(along: Any, across: Any) -> Any:
+        """Number of the end that is nearest; 0: none is."""
+        if is_arc:
+            return 0 if along >= cosine * math.sqrt(along * along + across * across) else 1 if across < 0 else 2
+        return 1 if along < 0 else 2 if along > length else 0
+
+    def between(x: Any, rate: Any, along: Any, across: Any) -> Any:
+        if beside(along, across) != 0:
+            return 0.0
+        apart = x + radius
+        return push(apart - abs(radius), rate) if apart > 0 else -push(-apart - abs(radius), -rate)
+
+    def at_start(x: Any, rate: Any, along: Any, across: Any) -> Any:
+        return push(x, rate) if beside(along, across) == 1 else 0.0
+
+    def at_end(x: Any, rate: Any, along: Any, across: Any) -> Any:
+        return push(x, rate) if beside(along, across) == 2 else 0.0
+    return list(zip((contact, *contact.end_parts()), (between, at_start, at_end), strict=True))
+
+
+def _add_law(tables: Any, element: Any, force: Any, inputs: list[int]) -> None:
+    """Add a force along the first of some quantities, as a function of it, its rate, and the others."""
+    bound = Law(f"force of {element.kind} {element.name!r}", force,
+                of={word: f"{element.name}.{word}" for word in ("x", "rate", "along", "across")[:len(inputs) + 1]})
+    read = [(0, False), (0, True), *((i, False) for i in range(1, len(inputs)))]
+    row = tables.laws.add(ForceLaw(bound, read, tables.parameters))
+    tables.forces.append(GeneralizedForce("law", inputs[0], law=row, inputs=inputs, what=bound.what))
 
 
 def _gap(tables: Any, contact: Any) -> Any:
