@@ -191,3 +191,35 @@ def test_an_anchor_escapement_comes_to_the_swing_at_which_its_weight_pays_for_wh
     lost = sol.impacts["energy_lost"][(sol.impacts["t"] > begin) & (sol.impacts["t"] < end)]
     assert len(lost) == 6
     assert air + lost.sum() == pytest.approx(3 * 2 * math.pi / 15 * 2e-3, rel=5e-4)       # in three swings there and back
+
+
+def test_a_geneva_drive_whose_pin_has_play_in_its_slot():
+    """The round pin on one side of the slot, then on the other: the wheel's angle and the pin's force in closed form."""
+    a, half, speed, mass, pin, play = 0.05, math.pi / 4, 2 * math.pi, 0.5, 0.004, 1e-4
+    apart, radius = a / math.sin(half), a / math.tan(half)
+    m = zd.Mechanism("Geneva")
+    crank = m.link("crank", (0, 0), (-a, 0), mass=0.0)
+    wheel = m.body("wheel", mass, mass * radius**2 / 2, at=(apart, 0))
+    shaft = m.revolute("shaft", m.ground, crank.start)
+    m.revolute("axle", m.ground, wheel.point((0, 0)))
+    m.motor("drive", shaft, speed=speed)
+    outward = np.array([math.cos(math.pi + half), math.sin(math.pi + half)])
+    for name, side in (("left", 1), ("right", -1)):
+        ends = (np.array([apart, 0]) + r * outward + side * (pin + play) * np.array([-outward[1], outward[0]])
+                for r in (apart - a - pin, radius))
+        m.contact(name, crank.end, wheel.segment(*ends), radius=pin)
+    lock = m.weld("lock", m.ground, wheel, at=(apart, 0), active=True)
+    m.latch("detent", lock, until=m.measure("enters", lambda angle: angle - math.pi + math.pi / 4, of={"angle": shaft.angle}))
+    sol = zd.simulate(m, 0.6, **FINE)
+    turn = sp.Symbol("turn")
+    distance = sp.sqrt(apart**2 + a**2 - 2 * apart * a * sp.cos(turn))
+    crank_angle = sol["shaft.angle"] - math.pi
+    for name, side in (("right left", 1), ("left right", -1)):
+        angle = -half - sp.atan2(a * sp.sin(turn), apart - a * sp.cos(turn)) + side * sp.asin(play / distance)
+        force = mass * radius**2 / 2 * speed**2 * sp.diff(angle, turn, 2) / sp.sqrt(distance**2 - play**2)
+        phase, = [each for each in sol.phases if each.state[name] == "closed" and each.t1 - each.t0 > 0.02]
+        inside = (sol.t > phase.t0) & (sol.t < phase.t1)
+        assert inside.sum() > 5
+        found = sp.lambdify(turn, [angle, sp.Abs(force)])(crank_angle[inside])
+        assert sol["axle.angle"][inside] == pytest.approx(found[0], abs=1e-10)
+        assert np.linalg.norm(sol[f"{name.split()[0]}.force"][inside], axis=1) == pytest.approx(found[1], rel=1e-9)
