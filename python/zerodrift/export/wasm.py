@@ -17,8 +17,8 @@ FLAGS = ("-Os", "-std=c11", "-ffp-contract=off", "-fvisibility=hidden", "-fno-sa
 LISTS = {"SYSTEM": (), "FORMULATION": ("zd_augmented", "zd_schur"), "INTEGRATOR": ("zd_heun", "zd_rk4", "zd_dormand_prince"),
          "CORRECTION": ("zd_projection_row", "zd_energy_row")}
 # Functions of zig's C library that the core calls and `c.zig` does not have. The whole library takes longer than the core.
-FUNCTIONS = """snprintf vsnprintf vfprintf fwrite __towrite atan2 nextafter pow pow_data exp_data sinh __expo2 asinh acosh atanh erf
-expm1 tgamma lgamma lgamma_r signgam ldexp scalbn __math_invalid __math_oflow __math_uflow __math_xflow __sin __cos"""
+FUNCTIONS = """snprintf vsnprintf vfprintf fwrite __towrite atan2 nextafter pow pow_data exp_data sinh __expo2 asinh acosh atanh
+erf expm1 tgamma lgamma lgamma_r signgam ldexp scalbn __math_invalid __math_oflow __math_uflow __math_xflow __sin __cos"""
 
 
 def text(name: str) -> str:
