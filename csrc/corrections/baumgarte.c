@@ -69,9 +69,9 @@ const zd_correction zd_baumgarte_row = {
         .name = "baumgarte",
         .summary = "Violations are fed back into the acceleration constraints, with gains alpha, beta and integral.",
         .equations = "(23)",
-        .description = "The right side of (6) gets -alpha Psi - beta Phi, so that violations decay as a damped oscillation does instead of "
-                       "growing. They stay bounded but never vanish: how large they are depends on the gains, on the step and on the "
-                       "motion. Gains that are large for the step make an explicit method unstable.",
+        .description = "The right side of (6) gets -alpha Psi - beta Phi, so that violations decay as a damped oscillation instead of "
+                       "growing. They stay bounded but do not vanish: their size depends on the gains, the step and the motion. Gains that "
+                       "are large for the step make an explicit method unstable.",
         .reference = "J. Baumgarte, Stabilization of constraints and integrals of motion in dynamical systems, Computer Methods in "
                      "Applied Mechanics and Engineering 1 (1972) 1-16",
         .parameters = sizeof parameters / sizeof parameters[0],

@@ -93,10 +93,10 @@ const zd_correction zd_energy_row = {
         .name = "energy",
         .summary = "Velocities are scaled so that the energy balance holds.",
         .equations = "(28), (29)",
-        .description = "After the constraints have been corrected, all that the velocities have besides the motion which moving constraints "
-                       "enforce is multiplied by the one number that makes kinetic and potential energy add up to what was there at the "
-                       "start and has been put in since. Near a turning point the kinetic energy is too small for that; such a step is "
-                       "left alone and counted. A balance that holds says nothing about the phase of the motion, which may still be off.",
+        .description = "After the correction of the constraints, the part of the velocities that moving constraints do not prescribe is "
+                       "scaled by one factor, such that kinetic and potential energy equal the initial energy and the work done since. Near "
+                       "a turning point the kinetic energy is too small for this; such a step is not corrected, and counted. A closed "
+                       "energy balance does not imply that the phase of the motion is right.",
         .reference = "W. Blajer, Elimination of constraint violation and accuracy aspects in numerical simulation of multibody systems, "
                      "Multibody System Dynamics 7 (2002) 265-284, section 3.2",
         .parameters = sizeof parameters / sizeof parameters[0],

@@ -228,12 +228,12 @@ static int after_step(void *self, zd_motion *motion)
 const zd_correction zd_projection_row = {
     .card = {
         .name = "projection",
-        .summary = "Positions and velocities are put back onto the constraints after the step, orthogonally in the mass metric.",
+        .summary = "Positions and velocities are projected onto the constraints after the step, orthogonally in the mass metric.",
         .equations = "(25), (26), (27)",
         .description = "Positions are iterated onto the constraints (3) to the tolerance, then velocities onto (5) in one solve, with the "
-                       "leading matrix that the formulation has factored anyway. In the mass metric the correction is orthogonal to the "
-                       "manifold of the constraints and leaves the motion along it alone, so that the order of the integrator stays "
-                        "what it is.",
+                       "leading matrix that the formulation has factored already. In the mass metric the correction is orthogonal to the "
+                       "manifold of the constraints and does not change the motion along it, so that the order of the integrator is "
+                       "unchanged.",
         .reference = "W. Blajer, Elimination of constraint violation and accuracy aspects in numerical simulation of multibody systems, "
                      "Multibody System Dynamics 7 (2002) 265-284, section 3.1",
         .parameters = sizeof parameters / sizeof parameters[0],

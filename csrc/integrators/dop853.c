@@ -93,9 +93,9 @@ const zd_integrator zd_dop853 = {
         .summary = "The explicit Runge-Kutta method of Dormand and Prince with twelve stages.",
         .equations = "Hairer et al., section II.5",
         .order = 8, .error_order = 7, .stability = 5.97,
-        .description = "Order eight with error estimates of orders five and three, blended, by which it can choose its steps. "
-                       "Twelve evaluations for each step, which are soon made up for where the error is to be below 1e-6. Its dense "
-                       "output takes two more evaluations and errs as a polynomial of order seven does, up to rounding.",
+        .description = "Order eight with error estimates of orders five and three, blended, for adaptive steps. Twelve evaluations for each "
+                       "step, which are efficient for errors below 1e-6. Its dense output takes two more evaluations and has order seven, "
+                       "up to rounding.",
         .reference = "E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd edition, Springer, "
                      "1993, section II.5",
     },

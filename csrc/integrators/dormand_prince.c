@@ -35,8 +35,8 @@ const zd_integrator zd_dormand_prince = {
         .summary = "The explicit Runge-Kutta method of Dormand and Prince with six stages, that of RK45.",
         .equations = "Dormand and Prince, 1980",
         .order = 5, .error_order = 4, .stability = 1.7,
-        .description = "Order five with an error estimate of order four, by which it can choose its steps: the method of SciPy's "
-                       "RK45 and of ode45. For errors of 1e-3 to 1e-6. Its dense output has order four.",
+        .description = "Order five with an error estimate of order four for adaptive steps: the method of SciPy's RK45 and of ode45. For "
+                       "errors of 1e-3 to 1e-6. Its dense output has order four.",
         .reference = "J. R. Dormand, P. J. Prince, A family of embedded Runge-Kutta formulae, Journal of Computational and "
                      "Applied Mathematics 6 (1980) 19-26",
     },

@@ -17,8 +17,8 @@ const zd_integrator zd_euler = {
         .summary = "Euler's explicit method: for comparison.",
         .equations = "Euler, 1768",
         .order = 1, .stability = 2,
-        .description = "One evaluation for each step. Its error is of the size of the step, and it puts energy into whatever "
-                       "oscillates; it is here for comparison.",
+        .description = "One evaluation for each step. Its error is proportional to the step, and it adds energy to oscillations; it is "
+                       "provided for comparison.",
         .reference = "E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd edition, Springer, "
                      "1993, section I.7",
     },

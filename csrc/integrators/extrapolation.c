@@ -75,9 +75,9 @@ const zd_integrator zd_extrapolation = {
         .summary = "The explicit midpoint rule in 2, 4, 6 and 8 parts, extrapolated: order eight, and no Runge-Kutta table.",
         .equations = "Gragg, 1965; Bulirsch and Stoer, 1966",
         .order = 8, .stability = 3.39,
-        .description = "A step is made in 2, 4, 6 and 8 parts by the explicit midpoint rule, and what the four results say of "
-                       "ever shorter parts is extrapolated. Its coefficients have nothing in common with those of Runge-Kutta "
-                       "methods, so that the two check each other; it takes more evaluations than dop853.",
+        .description = "A step is made in 2, 4, 6 and 8 parts by the explicit midpoint rule, and the four results are extrapolated to parts "
+                       "of length zero. Its coefficients have nothing in common with those of Runge-Kutta methods, so that the two verify "
+                       "each other; it takes more evaluations than dop853.",
         .reference = "W. B. Gragg, SIAM Journal on Numerical Analysis 2 (1965) 384-403; R. Bulirsch, J. Stoer, Numerische "
                      "Mathematik 8 (1966) 1-13",
     },

@@ -18,8 +18,8 @@ const zd_integrator zd_heun = {
         .summary = "Heun's method: the explicit trapezoidal rule.",
         .equations = "Heun, 1900",
         .order = 2, .stability = 2,
-        .description = "A step by Euler's method shows the rate at its end, and the step is made again with the mean of both: "
-                       "two evaluations for each step, order two.",
+        .description = "A step by Euler's method gives the rate at its end, and the step is repeated with the mean of both rates: two "
+                       "evaluations for each step, order two.",
         .reference = "K. Heun, Neue Methoden zur approximativen Integration, Zeitschrift fuer Mathematik und Physik 45 (1900) "
                      "23-38",
     },

@@ -18,8 +18,7 @@ const zd_integrator zd_midpoint = {
         .summary = "The explicit midpoint rule.",
         .equations = "Runge, 1895",
         .order = 2, .stability = 2,
-        .description = "Half a step by Euler's method shows the rate with which the whole step is made: two evaluations for each "
-                       "step, order two.",
+        .description = "Half a step by Euler's method gives the rate of the whole step: two evaluations for each step, order two.",
         .reference = "C. Runge, Ueber die numerische Aufloesung von Differentialgleichungen, Mathematische Annalen 46 (1895) "
                      "167-178",
     },

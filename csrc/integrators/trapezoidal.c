@@ -219,9 +219,9 @@ const zd_integrator zd_trapezoidal = {
         .summary = "The implicit trapezoidal rule: Newmark's method with beta = 1/4, gamma = 1/2.",
         .equations = "section 4.2",
         .order = 2,
-        .description = "An implicit method of order two whose equations are solved by Newton's iteration with a matrix from "
-                       "differences, which is kept while it serves. It is stable for steps of any size, which makes it one for "
-                       "stiff systems, and keeps the energy of linear ones. What it cannot resolve is stable, but wrong.",
+        .description = "An implicit method of order two whose equations are solved by Newton's iteration with a matrix from differences, "
+                       "which is reused while the iteration converges. It is stable for steps of any size, hence suited for stiff systems, "
+                       "and conserves the energy of linear ones. Motions that it does not resolve are stable, but wrong.",
         .reference = "N. M. Newmark, A method of computation for structural dynamics, Journal of the Engineering Mechanics "
                      "Division 85 (1959) 67-94",
     },

@@ -109,8 +109,8 @@ const zd_kind zd_knife_edge = {
         .name = "knife_edge",
         .summary = "Knife edge on an inclined plane: one nonholonomic constraint.",
         .equations = "Bloch, section 1.6",
-        .description = "A skate slides along itself and turns, but does not slip sideways. Left alone at the top of the plane "
-                       "with some spin it does not run down: it drifts sideways on a cycloid.",
+        .description = "A skate slides along itself and turns, but does not slip sideways. Released at the top of the plane with some spin "
+                       "it does not slide down: it moves sideways on a cycloid.",
         .reference = "A. M. Bloch, Nonholonomic Mechanics and Control, 2nd edition, Springer, 2015, section 1.6",
     },
     .system = {

@@ -59,8 +59,8 @@ const zd_kind zd_oscillator = {
         .name = "oscillator",
         .summary = "Mass on a spring, without constraints: the paper's example 2.",
         .equations = "section 4.2",
-        .description = "One degree of freedom and no constraint, with a solution in closed form: what integrators and energy "
-                       "correction do is seen without anything else.",
+        .description = "One degree of freedom and no constraint, with a solution in closed form: it shows the effects of integrators and "
+                       "energy correction alone.",
         .reference = "W. Blajer, Elimination of constraint violation and accuracy aspects in numerical simulation of multibody "
                      "systems, Multibody System Dynamics 7 (2002) 265-284, section 4.2",
     },

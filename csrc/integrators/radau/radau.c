@@ -245,11 +245,11 @@ const zd_integrator zd_radau = {
         .summary = "Radau's implicit method IIA with three stages, of order five, for stiff systems.",
         .equations = "Hairer and Wanner, section IV.8",
         .order = 5, .error_order = 3,
-        .description = "Order five, stable for steps of any size, and parts that are too fast for a step are damped: for stiff systems, "
-                       "at steps chosen by an error estimate of order three. Its equations are solved by Newton's iteration with a "
-                       "Jacobian, which is kept while it serves: that of the equations where these are expressions that are compiled, else "
-                       "from derivatives of the residuals, as linearization has them; near bifurcations, where rates change abruptly, "
-                       "a step of fixed size may not be solved, and stops the run.",
+        .description = "Order five, stable for steps of any size; components that are too fast for a step are damped: for stiff systems, "
+                       "with adaptive steps by an error estimate of order three. Its equations are solved by Newton's iteration with a "
+                       "Jacobian, which is reused while the iteration converges: that of the equations if these are compiled expressions, "
+                       "else from derivatives of the residuals, as in linearization; near bifurcations, where rates change abruptly, a step "
+                       "of fixed size may not be solved, and stops the run.",
         .reference = "E. Hairer, G. Wanner, Solving Ordinary Differential Equations II: Stiff and Differential-Algebraic Problems, "
                      "2nd edition, Springer, 1996, section IV.8",
     },

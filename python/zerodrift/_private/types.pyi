@@ -101,12 +101,12 @@ class EnsembleOptions(Settings, total=False):
     events: Events | None
 
 class Projection(RowSettings):
-    """Positions and velocities are put back onto the constraints after the step, orthogonally in the mass metric.
+    """Positions and velocities are projected onto the constraints after the step, orthogonally in the mass metric.
 
     Positions are iterated onto the constraints (3) to the tolerance, then velocities onto (5) in one
-    solve, with the leading matrix that the formulation has factored anyway. In the mass metric the
-    correction is orthogonal to the manifold of the constraints and leaves the motion along it alone, so
-    that the order of the integrator stays what it is.
+    solve, with the leading matrix that the formulation has factored already. In the mass metric the
+    correction is orthogonal to the manifold of the constraints and does not change the motion along it,
+    so that the order of the integrator is unchanged.
 
     Parameters
     ----------
@@ -153,9 +153,8 @@ class Baumgarte(RowSettings):
     """Violations are fed back into the acceleration constraints, with gains alpha, beta and integral.
 
     The right side of (6) gets -alpha Psi - beta Phi, so that violations decay as a damped oscillation
-    does instead of growing. They stay bounded but never vanish: how large they are depends on the
-    gains, on the step and on the motion. Gains that are large for the step make an explicit method
-    unstable.
+    instead of growing. They stay bounded but do not vanish: their size depends on the gains, the step
+    and the motion. Gains that are large for the step make an explicit method unstable.
 
     Parameters
     ----------
@@ -186,11 +185,11 @@ class Baumgarte(RowSettings):
 class EnergyCorrection(RowSettings):
     """Velocities are scaled so that the energy balance holds.
 
-    After the constraints have been corrected, all that the velocities have besides the motion which
-    moving constraints enforce is multiplied by the one number that makes kinetic and potential energy
-    add up to what was there at the start and has been put in since. Near a turning point the kinetic
-    energy is too small for that; such a step is left alone and counted. A balance that holds says
-    nothing about the phase of the motion, which may still be off.
+    After the correction of the constraints, the part of the velocities that moving constraints do not
+    prescribe is scaled by one factor, such that kinetic and potential energy equal the initial energy
+    and the work done since. Near a turning point the kinetic energy is too small for this; such a step
+    is not corrected, and counted. A closed energy balance does not imply that the phase of the motion
+    is right.
 
     Parameters
     ----------

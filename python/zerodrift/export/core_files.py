@@ -86,7 +86,7 @@ class CoreFiles:
     Parameters
     ----------
     lists : dict of str to sequences of str
-        Entries of the lists of ``methods.h`` that are kept, such as ``{"INTEGRATOR": ["zd_rk4"]}``; others stay whole.
+        Entries of the lists of ``methods.h`` that are kept, such as ``{"INTEGRATOR": ["zd_rk4"]}``; others are complete.
     entries : sequence of str
         Sources that the program needs.
     """

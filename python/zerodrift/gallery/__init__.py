@@ -1,4 +1,4 @@
-"""All models of `zerodrift.models` in motion: what ``python -m zerodrift gallery`` writes, and the notebook of that name shows.
+"""All models of `zerodrift.models` in motion, as ``python -m zerodrift gallery`` and the gallery of the documentation show them.
 
 >>> from zerodrift import gallery
 >>> gallery.exhibit("jansen").lines

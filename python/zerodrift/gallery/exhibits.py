@@ -28,7 +28,7 @@ class Exhibit(NamedTuple):
     name : str
         Name of the model in `zerodrift.models`.
     see : str
-        A sentence on what to see.
+        Caption.
     span, step : float
         In s.
     path : tuple of str

@@ -1,4 +1,4 @@
-"""Andrews' squeezing mechanism: seven bodies, three loops, driven hard for three hundredths of a second."""
+"""Andrews' squeezing mechanism: seven bodies and three loops, over three hundredths of a second."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ START = {
 def andrews(**parameters: float) -> Mechanism:
     """Andrews' squeezing mechanism, the seven-body test problem of the DAE literature, from bodies and joints.
 
-    A crank, which a constant moment drives, a coupler, and three chains that carry the coupler's end: a lever on a spring, and
+    A crank that a constant moment drives, a coupler, and three chains that support the coupler's end: a lever on a spring, and
     two pairs of a rocker and a link. It starts from rest and is known to 0.03 s. The bodies are ``K1`` (crank), ``K2``
     (coupler), ``K3`` (lever), ``K4`` and ``K5``, ``K6`` and ``K7``, as in the literature, whose angles are theirs: beta, beta +
     theta, gamma, phi + delta, delta, omega + epsilon, epsilon. The motor is ``drive``.
@@ -34,7 +34,7 @@ def andrews(**parameters: float) -> Mechanism:
     Parameters
     ----------
     **parameters : float
-        Values of the literature's symbols that are to differ, such as ``mom=0.05`` for the moment in N m; SI units.
+        Other values, by the symbols of the literature, such as ``mom=0.05`` for the moment in N m; SI units.
 
     Returns
     -------

@@ -14,11 +14,11 @@ HANDLEBAR, BEHIND = 0.28, 0.1       # m: half its width; of the wheelbase: how f
 def bicycle(*, wheelbase: float = 1.1, centre: float = 0.5, mass: float = 85.0, inertia: float = 10.0, fork_mass: float = 5.0,
             fork_inertia: float = 0.3, amplitude: float = 0.3, frequency: float = 1.5, stiffness: float = 60.0,
             damping: float = 4.0, thrust: float = 0.0, speed: float = 5.0) -> Mechanism:
-    """A bicycle that is kept upright: the plane single-track vehicle, a frame and a fork with a blade each.
+    """Planar single-track vehicle: a bicycle that is held upright, a frame and a fork with a blade each.
 
     A frame with its rider, on a rear wheel, and a fork with the front wheel, whose centre of mass is on the steering axis; this
-    is vertical and goes through the front wheel's contact. Neither wheel slips sideways; that they roll stores no energy. The
-    rider steers a slalom: a spring pulls the fork towards ``amplitude * sin(frequency * t)``, and a damper holds it back. A
+    is vertical and goes through the front wheel's contact. Neither wheel slips sideways; their rotation stores no energy. The
+    rider steers a slalom: a spring pulls the fork towards ``amplitude * sin(frequency * t)``, and a damper resists its motion. A
     thrust pushes along the frame. The bodies are ``frame``, which begins at the rear contact, and ``fork``; the steering axis is
     ``head``, the wheels' contacts ``rear`` and ``front``, and the rider's arms ``arms`` and ``slalom``.
 

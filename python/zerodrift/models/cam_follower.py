@@ -1,4 +1,4 @@
-"""A disc cam and its follower, which dwells below and above."""
+"""A disc cam and its follower, with a low and a high dwell."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from ._swing import sympy
 def cam_follower(*, lift: float = 0.0254, base: float = 0.05, rise: float = np.pi / 2, dwell: float = np.pi / 2,
                  fall: float = np.pi / 2, speed: float = 2 * np.pi, cam_mass: float = 1.0, follower_mass: float = 0.5,
                  stiffness: float = 500.0, preload: float = 20.0, gravity: float = 9.81) -> Mechanism:
-    """A cam that lifts its follower by the 4-5-6-7 polynomial, holds it there, and lets it down by the same.
+    """A cam that raises its follower by the 4-5-6-7 polynomial, holds it, and lowers it by the same.
 
-    It begins in the middle of the low dwell. The follower, above the cam's shaft, is pressed down by a spring; as the cam's
-    coupling pulls, too, the follower would lift off where ``contact.force`` is negative. The bodies are ``cam`` and
-    ``follower``, the joints ``shaft`` and ``guide``, the motor ``drive``.
+    It begins in the middle of the low dwell. The follower, above the cam's shaft, is pressed down by a spring; the cam's coupling
+    also pulls; a real follower would lift off where ``contact.force`` is negative. The bodies are ``cam`` and ``follower``, the
+    joints ``shaft`` and ``guide``, the motor ``drive``.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def cam_follower(*, lift: float = 0.0254, base: float = 0.05, rise: float = np.p
     base : float
         Radius of the base circle in m.
     rise, dwell, fall : float
-        Angles of the cam's turn, in rad: in which the follower goes up, stays above, and comes down.
+        Angles of the cam, in rad, over which the follower rises, dwells and falls.
     speed : float
         Angular velocity of the cam, in rad/s.
     cam_mass, follower_mass : float

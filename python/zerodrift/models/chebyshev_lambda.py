@@ -18,9 +18,9 @@ def chebyshev_lambda(*, crank: float = 0.1, speed: float = 2 * np.pi, mass: Mapp
                      gravity: ArrayLike | None = None) -> Mechanism:
     """The four-bar of Chebyshev's plantigrade machine: its ground is 2, coupler and rocker are 2.5 cranks long.
 
-    The coupler goes on beyond its hinge with the rocker by 2.5 cranks more, to ``P``. In the first half of a turn P goes along a
-    line that is 4 cranks above the ground, nearly straight; then it comes back in an arc. Hoecken's linkage has the same
-    proportions. The links are ``crank``, ``coupler`` and ``rocker``, and the motor is ``drive``.
+    The coupler extends beyond its hinge with the rocker by another 2.5 cranks, to ``P``. In the first half of a turn P moves on a
+    nearly straight line, 4 cranks above the ground; then it returns on an arc. Hoecken's linkage has the same proportions. The
+    links are ``crank``, ``coupler`` and ``rocker``, and the motor is ``drive``.
 
     Parameters
     ----------

@@ -15,7 +15,7 @@ LEAN = np.radians(75.0)     # initial inclination of the first link in rad
 @checked
 def closed_pendulum(links: int = 4, *, length: float = 1.0, mass: float = 1.0, gravity: float = 9.81,
                     span: float | None = None) -> Mechanism:
-    """A chain of equal slender links, pinned at both ends on one level; it is let go from an arch above the pins.
+    """A chain of equal slender links, pinned at both ends on one level, and released from an arch above the pins.
 
     The links are ``link1``, ``link2``, ..., the joints ``pin0`` (at the ground), ``pin1``, ...
 
@@ -28,8 +28,8 @@ def closed_pendulum(links: int = 4, *, length: float = 1.0, mass: float = 1.0, g
     gravity : float
         In m/s^2, downwards.
     span : float, optional
-        Distance of the pins in m, less than all links together; left out: about half of that, and as far as can be from where all
-        links can line up with the pins.
+        Distance of the pins in m, less than all links together; left out: about half of that, at the largest distance from spans
+        for which all links can line up with the pins.
 
     Returns
     -------
@@ -42,8 +42,8 @@ def closed_pendulum(links: int = 4, *, length: float = 1.0, mass: float = 1.0, g
 
     Notes
     -----
-    Where all links lie on the line through the pins, the constraints are dependent, and close to it, motions are as wild as the
-    steps are long. That can happen where ``span`` is a sum of the lengths with some signs turned, as with ``links=4, span=2``.
+    Where all links lie on the line through the pins, the constraints are dependent, and motions close to it depend strongly on
+    the step. This can happen where ``span`` is a sum of the lengths with some signs reversed, as with ``links=4, span=2``.
 
     Examples
     --------
@@ -72,7 +72,7 @@ def closed_pendulum(links: int = 4, *, length: float = 1.0, mass: float = 1.0, g
 
 
 def arch(n: int, span: float) -> np.ndarray:
-    """The angles (n,) of links of length one that end at (span, 0): those of an even arch, turned as little as can be."""
+    """The angles (n,) of links of length one that end at (span, 0): those of an even arch, with the smallest turns."""
     angles = np.linspace(LEAN, -0.75 * LEAN, n)
     for _ in range(100):
         along, up = np.cos(angles), np.sin(angles)

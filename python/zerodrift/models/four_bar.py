@@ -16,7 +16,7 @@ def four_bar(*, lengths: ArrayLike = (1.0, 0.3, 1.0, 0.6), masses: ArrayLike = (
              crank_angle: float = np.pi / 2, crank_rate: float = 1.0) -> Mechanism:
     """The paper's first example: crank, coupler and rocker under gravity, from bodies and joints.
 
-    What `zerodrift.systems.four_bar` has in C. The joints are ``A`` (ground and crank), ``B``, ``C`` and ``D`` (rocker and
+    The mechanism of `zerodrift.systems.four_bar`. The joints are ``A`` (ground and crank), ``B``, ``C`` and ``D`` (rocker and
     ground); the coupler starts above.
 
     Parameters

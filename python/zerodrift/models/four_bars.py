@@ -1,4 +1,4 @@
-"""A row of four-bars that move as one, and pass through poses in which they could all part."""
+"""A row of four-bars that move alike, and pass through bifurcations."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from ._arguments import checked
 
 @checked
 def four_bars(loops: int = 2, *, length: float = 1.0, mass: float = 1.0, gravity: float = 9.81, speed: float = 1.0) -> Mechanism:
-    """N parallelograms in a row, upright, whose upper joints start along x; every upright turns as the first does.
+    """N parallelograms in a row, upright, whose upper joints start along x; all uprights turn alike.
 
     Problem A02 of the IFToMM library of multibody benchmarks. The uprights are ``crank0`` to ``crankN``, the bars between them
-    ``bar0`` to ``barN-1``. As long as the crank turns one way, the row goes over its flat poses, in which the freedoms jump
-    from one to N + 1.
+    ``bar0`` to ``barN-1``. If the crank turns in one direction, the row passes its flat poses, in which it has N + 1 freedoms
+    instead of one.
 
     Parameters
     ----------

@@ -15,7 +15,7 @@ PLAY = 1e-6         # rad: the lock is open a little longer than a slot is engag
 
 @checked
 def geneva(*, slots: int = 4, crank_length: float = 0.05, speed: float = 2 * math.pi, wheel_mass: float = 0.5) -> Mechanism:
-    """Geneva drive: each turn of the crank moves the wheel on by one slot, and holds it meanwhile.
+    """Geneva drive: each turn of the crank advances the wheel by one slot, and locks it during the rest of the turn.
 
     The slots are joints that are released: the pin joins ``slot 1``, ``slot 2``, ... where it enters them, along their axes and
     so without impact, and releases them where it leaves; then ``lock`` holds the wheel. ``slot 1.force`` is that of the wheel on

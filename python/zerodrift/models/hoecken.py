@@ -1,4 +1,4 @@
-"""Hoecken's linkage, whose coupler point goes straight, and nearly at a constant speed, for a good part of the turn."""
+"""Hoecken's linkage, whose coupler point moves on a nearly straight line, at nearly constant speed, in a part of the turn."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ def hoecken(*, crank: float = 0.1, ground: float = 2.5, coupler: float = 3.25, s
             mass: Mapping[str, float] | float = 0.2, gravity: ArrayLike | None = None) -> Mechanism:
     """A crank-rocker whose rocker and both halves of the coupler are equally long; its point ``P`` draws a line.
 
-    The proportions are those that Norton tables as the straightest over 140 degrees of the crank: there, while the crank turns
-    from 110 to 250 degrees, P goes 3.623 cranks along x, and leaves its line by 0.023 % of that. With ``ground=2,
+    The proportions are those that Norton tabulates as the straightest over 140 degrees of the crank: there, while the crank turns
+    from 110 to 250 degrees, P moves 3.623 cranks along x, and deviates from its line by 0.023 % of that. With ``ground=2,
     coupler=2.5`` it is Chebyshev's lambda mechanism. The links are ``crank``, ``coupler`` and ``rocker``, and the motor is
     ``drive``.
 
@@ -44,7 +44,7 @@ def hoecken(*, crank: float = 0.1, ground: float = 2.5, coupler: float = 3.25, s
     Raises
     ------
     ValueError
-        If the crank cannot turn round: the rocker has to be longer than half of ground and crank together, and the ground
+        If the crank cannot make full turns: the rocker has to be longer than half of ground and crank together, and the ground
         longer than the crank.
 
     References

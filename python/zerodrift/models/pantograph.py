@@ -1,4 +1,4 @@
-"""A pantograph, whose pen draws what its tracer goes over, to another size."""
+"""A pantograph, whose pen draws the path of its tracer at another scale."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ def pantograph(*, arm: float = 0.2, ratio: float = 2.0, size: float = 0.05, rate
                mass: Mapping[str, float] | float = 0.1, gravity: ArrayLike | None = None) -> Mechanism:
     """Four bars about a parallelogram, such that ``O``, the tracer ``Q`` and the pen ``P`` are in line, and O P is ratio O Q.
 
-    The tracer is led along a lying eight, size wide to each side and half as high, so that both freedoms are driven. The bars
-    are ``main`` (O A B), ``pen`` (B C P), ``short`` (A Q) and ``side`` (C Q).
+    The tracer is driven along a horizontal figure of eight, size wide to each side and half as high: both freedoms are driven.
+    The bars are ``main`` (O A B), ``pen`` (B C P), ``short`` (A Q) and ``side`` (C Q).
 
     Parameters
     ----------
     arm : float
         O A and A Q, in m.
     ratio : float
-        By what the pen enlarges, above 1.
+        Scale of the pen's path, above 1.
     size : float
         Half the width of the eight, in m, less than a third of the arm.
     rate : float

@@ -18,7 +18,7 @@ from ._swing import swing
 @checked
 def peaucellier(*, arm: float = 0.25, side: float = 0.12, crank: float = 0.1, amplitude: float = 1.2, rate: float = 2 * np.pi,
                 mass: Mapping[str, float] | float = 0.2, gravity: ArrayLike | None = None) -> Mechanism:
-    """A rhombus on two arms: its near corner ``Q`` goes on a circle through ``O``, and its far corner ``P`` on a line.
+    """A rhombus on two arms: its near corner ``Q`` moves on a circle through ``O``, and its far corner ``P`` on a line.
 
     O P is (arm^2 - side^2) / O Q, which is an inversion, and so the line is x = (arm^2 - side^2) / (2 crank). The crank ``AQ``
     swings: its motor, ``drive``, has it at amplitude sin(rate t) from the x axis.

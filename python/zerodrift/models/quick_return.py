@@ -15,9 +15,9 @@ def quick_return(*, ground: float = 0.025, crank: float = 0.010, lever: float = 
                  speed: float = -15.0, mass: float = 0.1, ram_mass: float = 0.5, gravity: float = 0.0) -> Mechanism:
     """A crank above the lever's hinge, whose pin slides in the lever; a rod from the lever's end moves a ram along x.
 
-    A crank that is shorter than the distance of the hinges has the lever swing, as in shapers; with a longer one the lever turns
-    round, too, which is Whitworth's own. The links are ``crank``, ``lever``, ``rod`` and ``ram``; the lever's slot is
-    ``block``, the ram's guide ``guide``, and the motor ``drive``.
+    With a crank shorter than the distance of the hinges the lever swings, as in shapers; with a longer one it makes full turns,
+    as Whitworth's does. The links are ``crank``, ``lever``, ``rod`` and ``ram``; the lever's slot is ``block``, the ram's guide
+    ``guide``, and the motor ``drive``.
 
     Parameters
     ----------

@@ -14,7 +14,7 @@ from ._swing import swing
 @checked
 def scissor_lift(stages: int = 3, *, arm: float = 1.0, angle: float = 0.6, amplitude: float = 0.1, rate: float = np.pi,
                  mass: float = 2.0, platform: float = 10.0, load: float = 100.0, gravity: float = 9.81) -> Mechanism:
-    """A lift of so many stages, whose lower right arm's end is moved along the ground.
+    """A lift of several stages, of which a motor moves one foot along the ground.
 
     The platform is stages arm sin(angle) high, and stays level. Its arms are ``rise0``, ``fall0``, ``rise1``, ..., which cross in
     ``cross0``, ``cross1``, ...; one foot is hinged, ``foot``, and the motor, ``drive``, moves the other, ``roller``, by
@@ -48,7 +48,7 @@ def scissor_lift(stages: int = 3, *, arm: float = 1.0, angle: float = 0.6, ampli
 
     Notes
     -----
-    By virtual work the roller's force is stages / tan(angle) times what the platform weighs, if arms are light; so it is large
+    By virtual work the roller's force is stages / tan(angle) times the weight of the platform, if arms are light; it is large
     where the lift is low. The numbers are round ones.
 
     Examples

@@ -1,4 +1,4 @@
-"""A snakeboard, which its rider drives by turning to and fro, without ever touching the ground."""
+"""A snakeboard, which its rider drives by turning to and fro, without touching the ground."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A six-bar linkage of Stephenson's third kind: a four-bar, whose coupler leads a second rocker."""
+"""A six-bar linkage of Stephenson's third kind: a four-bar, whose coupler drives a second rocker."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ def stephenson(*, speed: float = 2 * np.pi, mass: Mapping[str, float] | float = 
                gravity: ArrayLike | None = None) -> Mechanism:
     """A crank ``AB``, a coupler with three hinges, ``BCE``, two rockers on the ground, ``DC`` and ``FG``, and a link ``EG``.
 
-    The shortest bar of the four-bar A B C D is the crank's and turns round; the second rocker swings as the coupler's curve has
-    it. The links are ``crank``, ``coupler``, ``rocker``, ``link`` and ``output``, and the motor is ``drive``.
+    The shortest bar of the four-bar A B C D is the crank and makes full turns; the second rocker follows the coupler's curve. The
+    links are ``crank``, ``coupler``, ``rocker``, ``link`` and ``output``, and the motor is ``drive``.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A toggle press: a crank straightens a knee, which presses the harder, the straighter it is."""
+"""A toggle press: a crank straightens a knee, whose force grows as it becomes straight."""
 
 from __future__ import annotations
 

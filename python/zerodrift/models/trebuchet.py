@@ -1,4 +1,4 @@
-"""A trebuchet: an arm with a hinged counterweight, and a sling that lets go."""
+"""A trebuchet: an arm with a hinged counterweight, and a sling that is released."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Watt's linkage, whose middle goes straight between two rockers."""
+"""Watt's linkage, whose coupler's middle moves on a nearly straight line."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ._swing import swing
 @checked
 def watt(*, rocker: float = 0.5, coupler: float = 0.2, amplitude: float = 0.35, rate: float = 2 * np.pi,
          mass: Mapping[str, float] | float = 0.2, gravity: ArrayLike | None = None) -> Mechanism:
-    """Two equal rockers, level in the middle position, and an upright coupler between them, whose middle ``P`` goes up and down.
+    """Two equal rockers, level in the middle position, and an upright coupler between them, whose middle ``P`` moves up and down.
 
     P stays on Watt's curve, an eight with a nearly straight piece through the middle. The links are ``left``, ``coupler`` and
     ``right``; the motor, ``drive``, has the left rocker at amplitude sin(rate t) from the x axis.

@@ -1,7 +1,7 @@
 """The examples of W. Blajer, "Elimination of Constraint Violation and Accuracy Aspects in Numerical Simulation of
 Multibody Systems", Multibody System Dynamics 7 (2002), section 4: their numbers, and nothing else.
 
-`reference` has what is exact, `claims` what the paper says and what we measure, `figures` Figures 4-9,
+`reference` has exact motions, `claims` the paper's claims and measured values, `figures` Figures 4-9,
 `reproduce` all of them in a folder: ``python -m zerodrift reproduce``.
 """
 

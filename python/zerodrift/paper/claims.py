@@ -23,7 +23,7 @@ Runs = dict[str, Solution]
 
 @dataclass(frozen=True)
 class Claim:
-    """A statement of the paper and what became of it.
+    """A statement of the paper and its verification.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class Claim:
     holds : bool
         True: the measurement agrees with the claim.
     remark : str
-        Why not, or under what condition.
+        The reason, or the condition.
     """
 
     figure: int

@@ -1,4 +1,4 @@
-"""Figures 4-9 of the paper, and what its methods cost; each function returns a matplotlib figure of its own."""
+"""Figures 4-9 of the paper, and the cost of its methods; each function returns a matplotlib figure of its own."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ REPETITIONS = 15        # of each timed run; the fastest counts
 
 
 def figure_4(fine: Solution) -> Figure:
-    """The mechanism at the start, and positions it goes through."""
+    """The mechanism at the start, and later positions."""
     figure, axes = plot.panels(1, 2, 9, 3.6)
     plot.mechanism(fine, t=fine.t[0], ax=axes[0, 0])
     _name_links(axes[0, 0], fine.system)
@@ -138,7 +138,7 @@ def _cost(repetitions: list[Solution]) -> tuple[float, float]:
 
 
 def figure_of_costs(runs: Runs, measured: dict[str, np.ndarray]) -> Figure:
-    """The paper's point in two panels: what the four cases violate, and what accuracy costs."""
+    """The paper's result in two panels: violations in the four cases, and the cost of accuracy."""
     figure, ((left, right),) = plot.panels(1, 2, 10, 4.2)
     for marker, (case, sol) in zip("os^D", runs.items(), strict=True):
         plot.violation(sol, ax=left, velocities=False, label=case, linewidth=1.2)

@@ -37,8 +37,8 @@ def from_mechanics(
     ----------
     method : LagrangesMethod, KanesMethod or System
         From `sympy.physics.mechanics`. Of a KanesMethod and of a System, as the joints framework builds it, coordinates and
-        speeds that depend on others are taken like the rest, and their constraints go to the core. A KanesMethod has to know
-        its bodies (``bodies=``) and loads (``forcelist=``).
+        speeds that depend on others are taken like the rest, and their constraints go to the core. A KanesMethod must have its
+        bodies (``bodies=``) and loads (``forcelist=``).
     potential : Expr, optional
         V in J, of forces that are among the loads already: then there are energies. Left out: of a LagrangesMethod, what its
         Lagrangian has without velocities; else there are none.

@@ -1,4 +1,4 @@
-"""The built-in systems: ``zd.systems.four_bar(...)`` and whatever else the core's table has.
+"""The built-in systems: ``zd.systems.four_bar(...)`` and the others of the core's table.
 
 Each function takes the parameters of its system as keywords, with the units its docstring gives, and returns the system.
 """

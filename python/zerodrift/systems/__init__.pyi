@@ -44,8 +44,8 @@ def four_bar(*, lengths: ArrayLike = (1.0, 0.3, 1.0, 0.6), masses: ArrayLike = (
 def oscillator(*, mass: float = 1.0, stiffness: float = 10.0, x0: float = 0.1, v0: float = 0.0) -> BuiltIn:
     """Mass on a spring, without constraints: the paper's example 2.
 
-    One degree of freedom and no constraint, with a solution in closed form: what integrators and energy
-    correction do is seen without anything else.
+    One degree of freedom and no constraint, with a solution in closed form: it shows the effects of
+    integrators and energy correction alone.
 
     Parameters
     ----------
@@ -101,8 +101,8 @@ def knife_edge(*, mass: float = 1.25, inertia: float = 0.13, gravity: float = 9.
                heading: float = 0.0, speed: float = 0.0, turn_rate: float = 1.0471975511965979) -> BuiltIn:
     """Knife edge on an inclined plane: one nonholonomic constraint.
 
-    A skate slides along itself and turns, but does not slip sideways. Left alone at the top of the
-    plane with some spin it does not run down: it drifts sideways on a cycloid.
+    A skate slides along itself and turns, but does not slip sideways. Released at the top of the plane
+    with some spin it does not slide down: it moves sideways on a cycloid.
 
     Parameters
     ----------

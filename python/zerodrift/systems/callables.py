@@ -47,8 +47,8 @@ class System(BaseSystem):
     constraints : callable -> (mh,)
         Phi of (3). It may depend on t.
     jacobian : callable -> (mh, nq)
-        dPhi/dp. Left out: derived exactly from `constraints`. Given, runs compare it with differences of `constraints` now and
-        then.
+        dPhi/dp. Left out: derived exactly from `constraints`. If it is given, runs compare it regularly with differences of
+        `constraints`.
     nonholonomic : callable -> (mn, nv)
         The rows C_NH of (4).
     xi : callable -> (mh + mn,)
@@ -58,7 +58,7 @@ class System(BaseSystem):
     quaternions : sequence of int or str
         First coordinates of the unit quaternions in p (scalar first), by index or name. Quaternions are kept at length 1 after
         each step, and each is one coordinate more than there are velocities. They need `kinematics` that keep their length, and
-        no constraint that says so.
+        no constraint on this length.
     potential : callable -> float
         V in J. Without it there are no energies.
     power : callable -> float

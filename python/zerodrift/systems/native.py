@@ -90,7 +90,7 @@ def native(
     symbol : str, optional
         Name of the function in the library.
     version : int, optional
-        The ``ZD_INTERFACE_VERSION`` that the function was compiled with. Needed with an address; a library says it itself.
+        The ``ZD_INTERFACE_VERSION`` that the function was compiled with. Required with an address; a library declares it.
     velocities, constraints, nonholonomic : int or sequence of str
         Numbers of these, or their names. Left out: as many velocities as coordinates, and no constraints. Numbers of velocities
         and coordinates differ only with a kinematic matrix A.
@@ -113,7 +113,7 @@ def native(
     Returns
     -------
     system
-        It serves wherever a `zerodrift.System` does. It can be pickled if another process can find the function: in the same
+        It is accepted wherever a `zerodrift.System` is. It can be pickled if another process can find the function: in the same
         library at the same path, or by its name in a module.
 
     Raises
@@ -138,7 +138,7 @@ def native(
         system = zd.native(spring, ["x"], terms=["M", "f", "V"], parameters={"mass": 1.0, "stiffness": 4.0}, p0=[1.0])
 
     Matrices are row-major: ``M[i, j]`` is ``out[SLOT.M][i * nv + j]``; ``numba.carray(out[SLOT.M], (nv, nv))`` makes an array of
-    it. What a cfunc raises gets lost: return another number than 0 instead.
+    it. Exceptions of a cfunc are lost: return a nonzero number instead.
     """
     if coordinates is None:
         given = {"version": version, "terms": terms, "velocities": velocities, "constraints": constraints or None, "p0": p0,

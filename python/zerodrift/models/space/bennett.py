@@ -1,4 +1,4 @@
-"""Bennett's linkage: four hinges in space that move although they should not."""
+"""Bennett's linkage: four hinges in space that move against the count of freedoms."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .._arguments import checked
 @checked
 def bennett(*, first_length: float = 0.3, first_twist: float = 0.5, second_twist: float = 1.1, angle: float = 1.0,
             density: float = 2.0, speed: float = 2.0, gravity: float = 0.0) -> Mechanism:
-    """Four links with four hinges whose axes are skew, and one freedom where a count has none.
+    """Four links with four hinges whose axes are skew, and one freedom where the count gives none.
 
     Opposite links are alike: lengths a, b and twists alpha, beta, with a sin(beta) = b sin(alpha), from which b follows. The
     fixed link is on the x axis, of length a; the others are ``input`` (b), ``coupler`` (a) and ``output`` (b); the hinges are
@@ -42,7 +42,7 @@ def bennett(*, first_length: float = 0.3, first_twist: float = 0.5, second_twist
     Raises
     ------
     ValueError
-        If the twists are alike or none that make a linkage, or it would start flat.
+        If the twists are equal or do not make a linkage, or it would start flat.
 
     Notes
     -----

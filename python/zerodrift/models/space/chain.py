@@ -12,15 +12,15 @@ from .._arguments import checked
 @checked
 def chain(links: int = 1000, *, length: float = 10.0, mass: float = 10.0, incline: float = 0.3, coils: float = 3.0,
           gravity: float = 9.81) -> Mechanism:
-    """A chain of round bars with balls between them, hung at one end and let go.
+    """A chain of round bars with balls between them, hung at one end and released.
 
-    It is drawn as a coil that goes down at an incline. The bars are ``link 0``,
+    It is drawn as a coil whose axis slopes downwards. The bars are ``link 0``,
     ``link 1``, ..., the balls ``ball 0`` at the ground, ``ball 1``, ...
 
     Parameters
     ----------
     links : int
-        At least 1. What a step takes is in proportion to them.
+        At least 1. The cost of a step is proportional to it.
     length, mass : float
         Length and mass of the chain, in m and kg.
     incline : float

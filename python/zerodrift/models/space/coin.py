@@ -1,4 +1,4 @@
-"""A coin that comes to rest on a table, whirring ever faster."""
+"""A coin that settles on a table, Euler's disc."""
 
 from __future__ import annotations
 
@@ -16,11 +16,12 @@ from .._arguments import checked
 @checked
 def coin(*, radius: float = 0.012, mass: float = 7.5e-3, incline: float = 0.3, damping: float = 0.0,
          gravity: float = 9.81) -> Mechanism:
-    """A thin coin that whirs on its edge, as Euler's disc does, its centre at rest.
+    """A thin coin that rolls on its edge, as Euler's disc does, its centre at rest.
 
-    It starts at an incline at which its contact runs round at ``sqrt(4 gravity / (radius sin(incline)))`` while the coin
-    itself hardly turns. Without damping it does so for ever; with a torque that holds back what tilts it, it sinks, and whirs
-    the faster the flatter it lies. The body is ``coin``, whose z axis is its axis, and the contact ``table``.
+    It starts at an inclination at which its contact point circulates at ``sqrt(4 gravity / (radius sin(incline)))`` while the
+    coin itself hardly turns. Without damping this motion is steady; with a torque that damps the change of its inclination, it
+    sinks, and the contact point circulates ever faster. The body is ``coin``, whose z axis is its axis, and the contact
+    ``table``.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A shaft with two universal joints, which hands on an even speed if they are set right."""
+"""A shaft with two universal joints, which transmits a constant speed if their forks are aligned."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def double_cardan(*, bend: float = 0.5, last_bend: float | None = None, phase: f
     """Input and output with a shaft between them, in one plane, and a universal joint at each of its ends.
 
     Where both bends are alike and the forks on the middle shaft are in one plane, the output turns as the input does; a phase
-    between the forks makes it worse than one joint alone. The shafts are ``input``, ``middle`` and ``output``, the
+    between the forks makes the speed less uniform than with one joint. The shafts are ``input``, ``middle`` and ``output``, the
     crosses ``first`` and ``second``, the bearings ``bearing in`` and ``bearing out``, which lets the output slide, and the
     motor is ``drive``.
 

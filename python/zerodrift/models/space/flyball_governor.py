@@ -36,7 +36,7 @@ def flyball_governor(*, arm: float = 0.25, ball_mass: float = 2.0, ball_radius: 
     damping : float
         Damping of the sleeve, in N s/m.
     lift : float
-        Speed of the sleeve at the start, in m/s: with it it swings.
+        Speed of the sleeve at the start, in m/s, which makes it swing.
     gravity : float
         Downwards, along -z, in m/s^2.
 

@@ -17,7 +17,7 @@ def gyroscope(*, incline: float = 1.0, spin: float = 200.0, axial_inertia: float
     """A rotor in an inner gimbal in an outer gimbal, with a weight on its axle, started in steady precession.
 
     The outer gimbal turns about the vertical, the inner one about the outer one's x axis, which stays level, and the rotor
-    about the inner one's y axis, its axle. The bodies are ``outer``, ``inner`` and ``rotor``, whose centres are in one place,
+    about the inner one's y axis, its axle. The bodies are ``outer``, ``inner`` and ``rotor``, whose centres coincide,
     and the ``weight`` on the inner gimbal; the joints are ``pivot``, ``trunnion`` and ``axle``.
 
     Parameters
@@ -50,8 +50,8 @@ def gyroscope(*, incline: float = 1.0, spin: float = 200.0, axial_inertia: float
     -----
     With C and A the moments of the rotor, B those of the inner gimbal with its weight, ``B_x`` across the axle, ``B_y`` along it,
     ``s`` the spin and ``theta`` the incline, steady precession at ``w`` needs
-    ``(C - A - B_x + B_y) cos(theta) w^2 + C s w = weight * gravity * arm``; the slower of both is taken. The outer gimbal's
-    inertia has no part in it.
+    ``(C - A - B_x + B_y) cos(theta) w^2 + C s w = weight * gravity * arm``; the slower of both is taken. The outer
+    gimbal's inertia has no influence.
 
     References
     ----------

@@ -13,9 +13,9 @@ from .._arguments import checked
 def rattleback(*, long: float = 0.2, wide: float = 0.03, deep: float = 0.02, lowered: float = 0.01, mass: float = 1.0,
                roll_inertia: float = 2e-4, pitch_inertia: float = 1.6e-3, yaw_inertia: float = 1.7e-3, product: float = -2e-5,
                spin: float = -5.0, tilt: float = 0.008726646259971648, gravity: float = 9.81) -> Mechanism:
-    """Half an ellipsoid whose axes of inertia are turned against those of its surface, spun the way that it does not like.
+    """Half an ellipsoid whose axes of inertia are rotated against those of its surface, spun in the unstable direction.
 
-    It begins to rattle, stops, and turns the other way, without friction. Spun the other way it goes on. The body is ``stone``,
+    It begins to rattle, stops, and reverses, without friction. Spun in the other direction it continues. The body is ``stone``,
     whose frame begins at the ellipsoid's centre; it rolls on the ``table``, and its centre of mass is below the middle.
 
     Parameters
@@ -29,7 +29,7 @@ def rattleback(*, long: float = 0.2, wide: float = 0.03, deep: float = 0.02, low
     roll_inertia, pitch_inertia, yaw_inertia : float
         About x, y and z through the centre of mass, in kg m^2.
     product : float
-        Its entry [0, 1] of the tensor, in kg m^2: zero would make it like both ways.
+        Its entry [0, 1] of the tensor, in kg m^2: with zero both directions are alike.
     spin : float
         About the vertical at the start, in rad/s.
     tilt : float

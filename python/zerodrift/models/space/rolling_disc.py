@@ -14,7 +14,7 @@ from .._arguments import checked
 @checked
 def rolling_disc(*, radius: float = 0.5, mass: float = 1.0, lean: float = 0.4, turning: float = 2.0, spin: float | None = None,
                  nudge: float = 0.0, gravity: float = 9.81) -> Mechanism:
-    """A thin uniform disc on level ground, started in the steady motion that its lean and its turning have.
+    """A thin uniform disc on level ground, started in the steady motion of its lean and its turning.
 
     The body is ``disc``, whose x axis is its axle, and the contact ``floor``.
 
@@ -43,7 +43,7 @@ def rolling_disc(*, radius: float = 0.5, mass: float = 1.0, lean: float = 0.4, t
     Raises
     ------
     ValueError
-        If it would lie flat, or nothing says how it spins.
+        If it would lie flat, or its spin is not determined.
 
     Notes
     -----

@@ -1,4 +1,4 @@
-"""A slider-crank whose crank turns in a plane across the slider's way."""
+"""A slider-crank whose crank turns in a plane perpendicular to the slider's line."""
 
 from __future__ import annotations
 

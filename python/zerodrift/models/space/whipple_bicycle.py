@@ -1,4 +1,4 @@
-"""Whipple's bicycle: four rigid bodies on two thin wheels that roll, which stand by themselves within a range of speeds."""
+"""Whipple's bicycle: four rigid bodies on two thin wheels that roll, stable within a range of speeds."""
 
 from __future__ import annotations
 

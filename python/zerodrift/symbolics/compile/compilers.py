@@ -144,8 +144,8 @@ def zig() -> str | None:
 def _can_be_called(name: str) -> bool:
     """True if a command is a working compiler.
 
-    Microsoft's finds nothing without the variables of its command prompt. Apple's are there from the beginning and ask, by a
-    window, for leave to install themselves.
+    Microsoft's finds nothing without the variables of its command prompt. Apple's exist from the beginning, and open a window
+    that asks for permission to install them.
     """
     if name == "cl":
         return "INCLUDE" in os.environ

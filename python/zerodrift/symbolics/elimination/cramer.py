@@ -1,7 +1,7 @@
 """An order of one solve: all rows of C at once, by Cramer's rule.
 
-A processor divides more slowly than it does all else. So what is to be divided by the determinant, delta, is kept as it is before
-that, and 1 / delta and 1 / (D'^T M D') are made from the reciprocal of their product:
+Divisions are the slowest operations of a processor. Quotients by the determinant, delta, are therefore postponed, and 1 / delta
+and 1 / (D'^T M D') are computed from the reciprocal of their product:
 
     D' = delta D,    x0' = delta x0,    D'^T M D' a = delta D'^T force - (M D')^T x0',    x = (x0' + D' a) / delta
 """

@@ -4,9 +4,9 @@ Where a mechanism's terms have sin a, cos a, sin b and cos b, those of a + b and
 
     sin(a + b) = sin a cos b + cos a sin b,    cos(a + b) = cos a cos b - sin a sin b,
 
-a fraction of what a sine takes. So as few angles as possible are handed to the sines, the simplest ones, and all others follow.
-Each angle that is added rounds by some parts in 1e16 of sin a and sin b, and so does what a and b round to by themselves: near
-cancellation, what is lost is what the angles as numbers do not have.
+a fraction of what a sine takes. Sines are therefore computed of as few angles as possible, the simplest ones, and all others
+follow. Each added angle causes an error of some parts in 1e16 of sin a and sin b, as the rounding of a and b does: near
+cancellation, the lost digits are those that the angles as numbers do not have.
 """
 
 from __future__ import annotations
