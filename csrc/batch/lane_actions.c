@@ -44,6 +44,10 @@ static void go_on(zd_lane_group *self, int lane)
     self->run_of[lane].number_of_C = -1;
     search->number_of_now = lanes->number[lane];
     zd_lane_group_evaluate_all(self, lane, t, lanes->y, search->now);
+    for (int i = 0; i < search->occurrences; i++) {
+        const zd_bracket *it = &search->occurrence[i].bracket;
+        if (zd_is_same_instant(it->b, t, it->resolution)) search->now[search->occurrence[i].event] = 0;
+    }
     zd_lane_group_stand(self, lane, t, lanes->y);
     self->run->stepper.t = t;
     watch->disarmed = search->ended;

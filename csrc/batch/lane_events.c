@@ -73,15 +73,16 @@ static void proceed_to_next(zd_lane_group *self, zd_lane_search *search, int ind
 /* Records a located event as the end of the run, if it is the last that its count admits; proceeds to the next point. */
 static void note_located(zd_lane_group *self, int lane)
 {
-    const zd_lane_run *run = &self->run_of[lane];
-    zd_lane_search *search = &self->run_of[lane].search;
-    const double b = search->occurrence[search->occurrences - 1].bracket.b;
+    zd_lane_run *run = &self->run_of[lane];
+    zd_lane_search *search = &run->search;
+    double *b = &search->occurrence[search->occurrences - 1].bracket.b;
     const int64_t number = *zd_event_samples_count(self->batch, run->number, search->event) + ++search->number;
+    const int is_last = search->is_cut ? zd_acts(self->batch->settings->events, search->event)
+                                       : number == zd_lane_last_of(self, run, search->event);
     search->point++;
-    if (search->is_cut || b >= search->end || number != zd_lane_last_of(self, run, search->event)) return;
-    search->end = b;
-    search->ended = search->event + 1;
-    search->last = search->occurrences - 1;
+    if (is_last && zd_is_same_instant(*b, search->end, resolution_of(&self->lanes, lane))) *b = search->end;
+    if (search->is_cut || !is_last || *b >= search->end) return;
+    search->end = *b, search->ended = search->event + 1, search->last = search->occurrences - 1;
 }
 
 static zd_bracket bracket_of(const zd_lanes *lanes, const zd_lane_search *search, int lane, int first, int last)

@@ -22,6 +22,9 @@ static inline zd_bracket zd_bracket_of(double a, double b, double ga, double gb,
     return it;
 }
 
+/* True if two zeros are at one instant, to rounding. */
+static inline int zd_is_same_instant(double t, double other, double resolution) { return fabs(t - other) <= 4 * resolution; }
+
 /* The same bracket, with a zero expected at t. */
 static inline zd_bracket zd_bracket_near(double t, zd_bracket it)
 {

@@ -112,6 +112,7 @@ static int locate_event(zd_watch *self, int event, int most, double *end)
         int status = locate(self, it);
         if (status) return status;
         const int is_last = self->found[event] + ++number == events->terminal[event] || zd_acts(events, event);
+        if (is_last && zd_is_same_instant(it->bracket.b, *end, it->bracket.resolution)) it->bracket.b = *end;   /* in their order */
         if (!is_last || it->bracket.b >= *end) continue;
         *end = it->bracket.b;
         self->ended = event + 1;
@@ -150,6 +151,8 @@ static int cut(zd_watch *self, double *end)
     for (int i = 0; !status && i < self->events->count; i++)
         status = locate_event(self, i, i == last.event ? earlier : ZD_MAX_POINTS, end);
     *end = last.bracket.b;
+    for (zd_occurrence *it = self->occurrence; it < self->occurrence + self->occurrences; it++)
+        if (zd_acts(self->events, it->event) && zd_is_same_instant(it->bracket.b, *end, it->bracket.resolution)) it->bracket.b = *end;
     self->last = self->occurrences++;
     self->occurrence[self->last] = last;
     return status;
@@ -225,6 +228,17 @@ static int report(zd_watch *self, double end)
     return status || self->last < 0 ? status : report_one(self, self->last);
 }
 
+/* Values from which the next step begins after an event: those of events that occurred at the same instant are zero. */
+static int restart(zd_watch *self, double end, int is_known)
+{
+    const int status = is_known ? ZD_DONE : zd_watch_evaluate_all(self, self->now);
+    for (int i = 0; i < self->occurrences; i++) {
+        const zd_bracket *it = &self->occurrence[i].bracket;
+        if (zd_is_same_instant(it->b, end, it->resolution)) self->now[self->occurrence[i].event] = 0;
+    }
+    return status;
+}
+
 /* Locates and reports the events of a step. */
 static int find_all(zd_watch *self, double *end)
 {
@@ -233,8 +247,10 @@ static int find_all(zd_watch *self, double *end)
     int status = zd_watch_leave(self);
     if (!status) status = zd_watch_sample(self);
     if (!status) status = locate_all(self, &first_end);
-    if (!status && self->ended && output->is_prepared) status = cut(self, &first_end);
+    const int is_cut = self->ended && output->is_prepared;
+    if (!status && is_cut) status = cut(self, &first_end);
     if (!status) status = report(self, first_end);
+    if (!status && self->ended) status = restart(self, first_end, is_cut);
     if (self->ended) *end = first_end;
     return status;
 }

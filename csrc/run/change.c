@@ -282,8 +282,10 @@ int zd_phases_change(zd_run *run, const signed char *wanted, int is_start)
     }
     memset(phases->last.loss, 0, full->groups * sizeof *phases->last.loss);
     memset(phases->last.impulse, 0, full->groups * sizeof *phases->last.impulse);
-    const int status = change(it, joining, is_start);
+    int status = is_start ? ZD_DONE : zd_event_jumps_begin(run);
+    if (!status) status = change(it, joining, is_start);
     if (!status) {
+        if (!is_start) zd_event_jumps_finish(run);
         memcpy(phases->state, phases->present->of->state, full->groups);
         phases->last.count++;
         phases->last.t = run->stepper.t;

@@ -74,6 +74,7 @@ static void *make(zd_arena *arena, const void *of)
     self->at = (zd_state){.p = zd_arena_doubles(arena, full->nq), .v = zd_arena_doubles(arena, full->nv)};
     self->state = zd_arena_bytes(arena, full->groups);
     self->occurs = zd_arena_ints(arena, self->own ? self->own->count : 0);
+    self->passed = zd_arena_doubles(arena, self->own ? self->own->count : 0);
     for (int g = 0; self->state && g < full->groups; g++)
         self->state[g] = full->group[g].kind == ZD_TWO_SIDED && full->group[g].is_active ? ZD_CLOSED : ZD_OPEN;
     self->last.state = self->state;
@@ -103,8 +104,7 @@ static void *make_phase(zd_arena *arena, const void *of)
 {
     const phase_making *it = of;
     zd_phase nowhere, *here = zd_arena_bytes(arena, sizeof *here), *self = here ? here : &nowhere;
-    self->next = NULL;
-    self->is_open = 0;
+    self->next = NULL, self->is_open = 0;
     self->plan = zd_arena_bytes(arena, sizeof *self->plan);
     self->of = zd_phase_system_create(arena, it->phases->full, it->state);
     self->opened = zd_arena_doubles(arena, 1 + (size_t)it->phases->full->nq + (size_t)it->phases->full->nv

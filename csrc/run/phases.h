@@ -29,6 +29,7 @@ struct zd_phases {
     double *size;           /* (mh,) of the full system: sizes of its constraints, in the last phase in which each was active */
     signed char *state;     /* (groups,) the present one */
     int *occurs;            /* (own events,) true at the instant of the change */
+    double *passed;         /* (own events,) values before the first change at that instant */
     int changes;            /* number of changes at one instant */
     double t_changes;       /* s: that instant */
     int has_images;         /* true if the state can be saved: what is opened keeps an image */
@@ -61,3 +62,6 @@ int zd_phases_place(zd_run *run, const signed char *state, double t, const doubl
 /* Finds the phase that follows at the present state, with impacts, and enters it. `state` (groups,): requested states of two-sided groups;
  * NULL: as they are. `is_start`: no event has preceded. */
 int zd_phases_change(zd_run *run, const signed char *state, int is_start);
+/* event_jumps.c: values of the events of the settings before a change of phase; those that jump past zero occur as the next step begins. */
+int zd_event_jumps_begin(zd_run *run);
+void zd_event_jumps_finish(zd_run *run);

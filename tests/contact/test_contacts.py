@@ -367,3 +367,66 @@ def test_an_event_at_the_instant_of_an_impact_occurs_once():
     m = ball(0.5)
     sol = zd.simulate(m, 1.0, events=zd.Event("ball.position.y"), **FINE)
     assert sol.t_events[0] == pytest.approx(sol.impacts["t"][:len(sol.t_events[0])], abs=1e-9)
+
+
+# ---- reactions in events, latches and laws ----
+
+STEPS = [FINE, {"step": 0.01}, {"integrator": "radau", **FINE}]
+
+
+@pytest.mark.parametrize("how", STEPS, ids=str)
+def test_events_read_the_force_of_a_contact(how):
+    """A ball of 2 kg is lifted by 10 t N: the floor bears 10 N at 0.962 s, and nothing from 1.962 s on."""
+    m = zd.Mechanism("lift", gravity=(0, -G))
+    body = m.particle("ball", 2.0, at=(0, 0))
+    m.contact("floor", body, m.ground.line((0, 0), (1, 0)), friction=0.5)
+    m.force("pull", body, along=(0, 1), value=lambda t: 10 * t)
+    norm = zd.Event(lambda x, y: np.hypot(x, y), value=10.0, of={"x": "floor.force.x", "y": "floor.force.y"})
+    sol = zd.simulate(m, 3.0, events=[zd.Event("floor.force.y", value=10.0), norm, "floor.force.y"], **how)
+    for times, expected in zip(sol.t_events, (0.962, 0.962, 1.962), strict=True):
+        assert times == pytest.approx([expected], abs=1e-10)
+
+
+@pytest.mark.parametrize("how", STEPS, ids=str)
+def test_events_occur_where_a_change_of_phase_moves_their_function_past_zero(how):
+    """The force on a floor jumps from 0 to 19.62 N at the impact, and the velocity from -4.4 m/s to 0: both are passed there."""
+    m = zd.Mechanism("drop", gravity=(0, -G))
+    body = m.particle("ball", 2.0, at=(0, 1))
+    m.contact("floor", body, m.ground.line((0, 0), (1, 0)))
+    fall = np.sqrt(2 / G)
+    events = [zd.Event("floor.force.y", value=10.0), zd.Event("ball.velocity.y", value=-1.0, direction=1), "ball.velocity.y"]
+    sol = zd.simulate(m, 1.0, events=events, **how)
+    assert sol.t_events[0] == pytest.approx([fall], abs=1e-12)
+    assert sol.t_events[1] == pytest.approx([fall], abs=1e-12)
+    assert sol.t_events[2].size == 0        # zero is reached, not passed
+    assert zd.simulate(m, 1.0, events=zd.Event("floor.force.y", value=10.0, terminal=True), **how).t[-1] == sol.t_events[0][0]
+
+
+@pytest.mark.parametrize("how", STEPS[:2], ids=str)
+def test_a_latch_lets_go_at_the_load_of_a_rod_and_of_an_impact(how):
+    """A rod that falls about its end tears off where its pin bears 20 N, of m g (5 sin a / 2, cos a / 4)."""
+    m = zd.Mechanism("rod", gravity=(0, -G))
+    rod = m.link("rod", (0, 0), (1, 0), mass=1.0)
+    hook = m.revolute("hook", m.ground, rod.start, active=True)
+    m.latch("tear", hook, until="hook.force.x * hook.force.x + hook.force.y * hook.force.y - 400")
+    sol = zd.simulate(m, 0.6, **how)
+    assert [phase.state["hook"] for phase in sol.phases] == ["joined", "released"]
+    at = np.flatnonzero(sol.t == sol.phases[1].t0)[0]
+    expected = ((20 / G)**2 - 1 / 16) / (6.25 - 1 / 16)
+    assert np.sin(sol["rod.angle"][at])**2 == pytest.approx(expected, abs=1e-7 if "step" in how else 1e-10)
+    m = zd.Mechanism("drop", gravity=(0, -G))
+    crate = m.body("crate", 2.0, 0.1, at=(0, 1))
+    m.weld("strap", crate, m.body("load", 1.0, 0.1, at=(0, 1)), at=(0, 1), active=True)
+    m.contact("floor", crate.point((0, 0)), m.ground.line((0, 0), (1, 0)))
+    m.latch("tear", "strap", until="floor.force.y - 10")
+    assert [phase.state["strap"] for phase in zd.simulate(m, 1.0, **how).phases] == ["joined", "joined", "released"]
+
+
+def test_events_read_joints_with_dry_friction():
+    """The force across a slider on which 3 sin(t) acts: friction bears all of it below 2 N, then 1 N."""
+    m, slide = slider(friction_force=(2.0, 1.0))
+    m.motor("push", slide, force=lambda t: 3 * np.sin(t))
+    sol = zd.simulate(m, 3.0, events=[zd.Event("slide.force.x", value=value) for value in (0.5, 1.5)], **FINE)
+    start = np.arcsin(2 / 3)        # from 0 to 1 N there
+    assert sol.t_events[0] == pytest.approx([start, np.pi - np.arcsin(0.5)], abs=1e-10)
+    assert sol.t_events[1] == pytest.approx([np.arcsin(2.5 / 3), np.pi - np.arcsin(2.5 / 3)], abs=1e-10)

@@ -179,6 +179,27 @@ def test_several_events_act_in_order():
     assert [i for i, _ in seen] == [0, 1, 2]
 
 
+@pytest.mark.parametrize("steps", ["adaptive", "fixed"])
+def test_several_events_act_within_one_step_and_at_one_instant_in_order(steps):
+    """A drive that is switched on and off again within a step of 0.01 s; two that set it at one instant: the last one counts."""
+    m = zd.Mechanism("cart")
+    slide = m.prismatic("slide", m.ground, m.body("cart", 1.0, 1.0), axis=(1, 0))
+    m.motor("push", slide, force=0.0)
+    m.start({slide.speed: 1.0})
+    events = [zd.Event("slide.displacement", value=at, then={"push.force": force})
+              for at, force in ((0.1236, 3.0), (0.1236, 0.0), (0.1234, 1.0), (0.2, 2.0), (0.2, -2.0))]
+    given = {"step": 0.01} if steps == "fixed" else {"rtol": 1e-11, "atol": 1e-13}
+    sol = zd.simulate(m, 0.3, events=[*events, zd.Event("slide.displacement", value=0.1235)], **given)
+    speed = np.sqrt(1 + 2 * 0.0002)
+    off = 0.1234 + speed - 1
+    assert sol.jumps["name"].tolist() == [f"events[{i}]" for i in (2, 0, 1, 3, 4)]
+    assert_close([float(t[0]) for t in sol.t_events[:3]], [off, off, 0.1234], 1e-12, scale=1.0)
+    assert_close(sol.t_events[5], [0.1234 + np.sqrt(1.0002) - 1], 1e-12, scale=1.0)
+    assert_close(sol["slide.speed"][-1], speed - 2 * (0.3 - off - (0.2 - 0.1236) / speed), 1e-11, scale=1.0)
+    runs = zd.ensemble(m, 0.3, v0=[[1.0], [1.0]], events=events, **given)
+    assert (runs[1].v[-1] == zd.simulate(m, 0.3, events=events, **given).v[-1]).all()
+
+
 def test_states_that_break_constraints_are_refused():
     run = zd.Run(zd.systems.four_bar(), step=0.01)
     run.step(10)

@@ -54,7 +54,8 @@ class Event:
     not include data that a function keeps.
 
     Reactions and accelerations are those of the state at which the event is evaluated. Where an input jumps, they jump with
-    it: the event happens there, and the state after the jump is reported.
+    it: the event happens there, and the state after the jump is reported. The same holds for forces and velocities that jump
+    past the value where a contact changes, as in an impact.
 
     Examples
     --------
