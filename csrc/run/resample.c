@@ -3,7 +3,7 @@
  *
  * Characteristic scales, the initial energy and the order of pivots come from the start of the run, which is the same here.
  */
-#include "phases.h"
+#include "contacts.h"
 
 #include <math.h>
 #include <string.h>
@@ -35,6 +35,22 @@ static int64_t sample_before(const zd_saved *saved, double t)
     return low;
 }
 
+/* Offsets of joints that are joined in the state of a sample (groups,): Phi there, of those that were joined open. */
+static int find_offsets(zd_phases *phases, const signed char *state, double t, const double *p, const double *v)
+{
+    const zd_system *full = phases->full;
+    const int status = zd_phase_evaluate(phases->present->of, ZD_PHI, t, p, v);
+    for (int g = 0; !status && g < full->groups; g++) {
+        const zd_group *group = full->group + g;
+        if (group->kind != ZD_TWO_SIDED || state[g] != ZD_CLOSED) continue;
+        for (int k = group->first; k < group->first + group->rows && k < full->mh; k++) {
+            const double Phi = zd_phase_Phi(phases->present->of)[k];
+            phases->offset[k] = fabs(Phi) > ZD_PENETRATION * phases->length ? Phi : 0;
+        }
+    }
+    return status;
+}
+
 static int place(zd_resample *self, int64_t sample)
 {
     zd_motion *motion = &self->run->motion;
@@ -42,8 +58,10 @@ static int place(zd_resample *self, int64_t sample)
     const zd_saved *saved = self->saved;
     const double *p = sample_of(saved, saved->p, motion->system.nq, sample), *v = sample_of(saved, saved->v, motion->system.nv, sample);
     if (self->run->phases) {
-        const double input = saved->input ? *sample_of(saved, saved->input, 1, sample) : 0;
-        return zd_phases_place(self->run, saved->state + sample * self->run->phases->full->groups, time_of(saved, sample), p, v, input);
+        const double input = saved->input ? *sample_of(saved, saved->input, 1, sample) : 0, t = time_of(saved, sample);
+        const signed char *state = saved->state + sample * self->run->phases->full->groups;
+        const int status = find_offsets(self->run->phases, state, t, p, v);
+        return status ? status : zd_phases_place(self->run, state, t, p, v, input);
     }
     if (motion->balance.input && saved->input) stepper->y[motion->rate.size - 1] = *sample_of(saved, saved->input, 1, sample);
     return zd_stepper_set_state(stepper, time_of(saved, sample), p, v);

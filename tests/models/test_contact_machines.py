@@ -113,6 +113,13 @@ def test_a_walker_repeats_the_step_of_the_literature(arguments, digits):
     assert sol.phases[-1].state["fall"] == "open"
 
 
+def test_a_walker_between_samples_stands_where_its_feet_were_joined():
+    times = np.linspace(0.003, 2.4, 50)
+    walk, same = (zd.simulate(zd.models.compass_gait(), 2.5, step=0.005, **more) for more in ({}, {"t_eval": times}))
+    for found, expected in zip(walk(times), (same.p, same.v), strict=True):
+        np.testing.assert_allclose(found, expected, atol=1e-10)
+
+
 @pytest.mark.parametrize("slots", [4, 6])
 def test_a_geneva_drive_has_the_angle_and_the_force_of_the_closed_form(slots):
     """The wheel's angle is atan(a sin, C - a cos) of the crank's while the pin is in a slot; what turns it is the pin's force."""
