@@ -7,6 +7,7 @@ import functools
 import http.server
 import importlib
 import json
+import math
 import re
 import shutil
 import subprocess
@@ -49,7 +50,8 @@ def quick_return():
     m.prismatic("guide", m.ground.point((2.0, 0.5)), "ram.end", axis=(1, 0), damping=2.0)
     m.spring("spring", m["arm"].point((0.5, 0)), "ram.start", stiffness=30.0, length=1.2, damping=0.5)
     m.motor("drive", "A", torque=3.0)
-    m.motor("push", "guide", force=-1.0)
+    m.motor("sway", "B", speed=lambda t: 0.25 * math.cos(3.5 * t))
+    m.motor("push", "guide", speed=lambda t: 0.3 * math.cos(7.0 * t))
     return m
 
 
@@ -84,7 +86,7 @@ def in_node(script, folder):
     for path in BOARD.glob("*.js"):
         shutil.copy(path, folder)
     (folder / "package.json").write_text('{"type": "module"}')
-    imports = "".join(f'import * as {name} from "./{name}.js";\n' for name in ("model", "block", "python"))
+    imports = "".join(f'import * as {name} from "./{name}.js";\n' for name in ("model", "block", "python", "fields"))
     (folder / "main.mjs").write_text(imports + 'import {readFileSync, writeFileSync} from "node:fs";\n'
                                      "const tell = (value) => console.log(JSON.stringify(value));\n" + script)
     result = subprocess.run([NODE, "main.mjs"], cwd=folder, capture_output=True, text=True, check=False, timeout=tol.HUNG)
@@ -137,6 +139,22 @@ def test_its_python_text_makes_its_file_and_runs(name, tmp_path, monkeypatch):
             near = pytest.approx(value, abs=1e-15) if key == "axis" else value     # turned there and back
             assert theirs[key] == near, key
     assert made == {key: value for key, value in again.items() if key != "elements"}
+
+
+@needs_node
+def test_angles_and_swings_are_typed(tmp_path):
+    (tmp_path / "m.json").write_text(saved(MECHANISMS["four-bar"]()))
+    before, after = in_node("""const m = model.parsedModel(readFileSync("m.json", "utf8"));
+        const type = (name, label, value) => fields.fieldsOf(m, name).find(each => each.label === label).set(m, value);
+        tell(m.elements);
+        type("crank", "angle, °", 30), type("drive", "sets", "swing");
+        type("drive", "amplitude, °", 20), type("drive", "frequency, Hz", 0.25);
+        tell(model.checkedModel(m).elements);""", tmp_path)
+    crank, turned = ({each["name"]: each for each in elements}["crank"] for elements in (before, after))
+    length = np.hypot(*np.subtract(crank["end"], crank["start"]))
+    assert turned["end"] == pytest.approx(np.add(crank["start"], length * np.array([np.sqrt(0.75), 0.5])), abs=1e-12)
+    (_, speed, (_, (_, rate, _))), = (each["law"]["expression"] for each in after if each["kind"] == "motor")
+    assert (rate, speed) == pytest.approx((np.pi / 2, np.radians(20) * np.pi / 2))
 
 
 ON_BOARD = {each.name: each for each in gallery.exhibits() if boards.boarded(each.made())}
@@ -458,7 +476,7 @@ def test_a_points_path_and_all_measures_over_a_turn_are_those_of_python(browser,
     m = MECHANISMS["four-bar"]()
     opened(browser, f"{server}#{address(m)}")
     browser.until("zerodrift.board.turn !== null")
-    assert motion(browser)[0] == "moves: yes, 1 freedom, driven by drive"
+    assert motion(browser)[0] == "moves: yes, driven by drive; freedom 0 (1 without it)"
     head, *rows = browser.evaluate("zerodrift.table()").splitlines()
     names, values = head.replace('"', "").split(","), np.array([[float(each) for each in row.split(",")] for row in rows])
     t = values[:, 0]
@@ -496,7 +514,7 @@ def test_a_crank_that_locks_says_so_in_words_of_mechanisms(browser, server):
 def test_what_is_undone_is_done_again_and_an_empty_field_is_an_error(browser, server):
     m = MECHANISMS["double pendulum"]()
     opened(browser, f"{server}#{address(m)}")
-    assert motion(browser)[0] == "moves: yes, 2 freedoms"
+    assert motion(browser)[0] == "moves: yes; freedom 2"
     draw(browser, "point", (0.4, 0.05), (0.5, 0.5))
     assert [each["kind"] for each in model(browser)["elements"]][-1] == "point"
     click_on(browser, "undo")
@@ -549,7 +567,7 @@ def test_an_example_is_opened_on_an_empty_board(browser, server):
     opened(browser, server)
     browser.evaluate("""[...document.querySelectorAll('#examples button')]
         .find(each => each.textContent === 'Watt linkage').click()""")
-    assert motion(browser)[0] == "moves: yes, 1 freedom, driven by drive"
+    assert motion(browser)[0] == "moves: yes, driven by drive; freedom 0 (1 without it)"
     assert browser.evaluate("document.getElementById('examples').hidden")
     click_on(browser, "new")
     assert model(browser)["elements"] == []

@@ -1,6 +1,6 @@
 // The block of data of a mechanism of the drawing board, word by word as `zd.block` writes it: see csrc/block/block.h.
 
-import {angleOf, bodyOf, drawnPlace, isJoint, lengthOf, localOf, ofKind, turned} from "./model.js";
+import {angleOf, bodyOf, drawnPlace, isJoint, lengthOf, localOf, ofKind, swingOf, turned} from "./model.js";
 
 const SECTIONS = ["gravity", "bodies", "joints", "quantities", "terms", "relations", "forces", "measures", "groups", "laws", "instructions", "results", "numbers",
                   "splines", "knots", "start", "outputs", "inputs", "settings", "methods", "names", "parameters", "effects", "products", "events",
@@ -36,7 +36,7 @@ function tablesOf(model) {
     const body = number(bodyOf(side)), [x, y] = localOf(model, side);
     return [body, body ? [x - lengthOf(links[body - 1]) / 2, y] : [x, y]];
   };
-  return {model, links, joints, place, quantities: [], terms: [], relations: [], forces: [], observed: [], relationNames: [], of: new Map()};
+  return {model, links, joints, place, quantities: [], terms: [], relations: [], forces: [], observed: [], relationNames: [], swings: [], of: new Map()};
 }
 
 const drawnAngle = (tables, side) => { const body = tables.links[tables.place(side)[0] - 1]; return body ? angleOf(body) : 0; };
@@ -67,7 +67,8 @@ function motorRows(tables, motor) {
   const index = tables.joints.findIndex((joint) => joint.name === motor.joint), joint = tables.joints[index], quantity = coordinateOf(tables, joint);
   const [measured, unit] = LENGTH_UNIT[joint.kind], prescribes = motor.drives === "speed";
   if (prescribes) {
-    tables.relations.push([tables.terms.length, 1, 0, -1, 0, motor.law, index]);
+    const swing = swingOf(motor);
+    tables.relations.push([tables.terms.length, 1, swing ? 1 : 0, swing ? tables.swings.push(swing) - 1 : -1, 0, swing ? 0 : motor.law, index]);
     tables.terms.push([quantity, 1]);
     tables.relationNames.push(motor.name);
   } else forceRow(tables, {kind: "constant", quantity, value: motor.law, joint: index});
@@ -89,6 +90,12 @@ function loadRows(tables, load) {
   forceRow(tables, {kind: "constant", quantity: tables.quantities.length - 1, value: load.value});
   tables.observed.push([`${load.name}.force`, "N", "force value", tables.forces.length - 1, 1, 1]);
 }
+
+// Laws xdot - a cos(w t) = 0 as programs of csrc/laws/program.h, with the derivatives that a relation needs.
+const SWING = [[2, 6, 3, 0], [49, 9, 1, 0], [2, 11, 4, 0], [4, 12, 0, 0], [2, 10, 5, 0], [50, 0, 0, 0]], RESULTS = [1, 2, 13, 14];
+const swingSections = (swings) => ({
+  laws: swings.map((_, i) => [6 * i, 6, 1, 4 * i, 4, 6 * i, 6]), instructions: swings.flatMap(() => SWING), results: swings.flatMap(() => RESULTS),
+  numbers: swings.flatMap(({a, w}) => [0, 0, 1, w, a, a * w])});
 
 // Elements kind by kind, in the order of the package; inputs of forces are numbered after the terms of all relations.
 function filledTables(model) {
@@ -129,7 +136,7 @@ export function blockOf(model, step = 1e-3, {p, v} = drawnStart(model)) {
   const joints = tables.joints.map((joint) => Object.values(jointEntry(tables, joint)).flat());
   const bodies = tables.links.map((link) => { const length = lengthOf(link); return [link.mass, link.mass * length ** 2 / 12, 0, -1]; });
   const entries = {gravity: [...model.gravity, sizeOf(tables)], bodies, joints, quantities: tables.quantities, terms: tables.terms, relations: tables.relations,
-                   forces: tables.forces, measures, start: [...p, ...v], outputs: measures.map((_, i) => i), settings: [[0, step, 0, 0, 0, 0, 0, 0, 0]],
+                   forces: tables.forces, ...swingSections(tables.swings), measures, start: [...p, ...v], outputs: measures.map((_, i) => i), settings: [[0, step, 0, 0, 0, 0, 0, 0, 0]],
                    methods, names};
   return packed(SECTIONS.map((section) => entries[section] ?? []), texts.bytes);
 }

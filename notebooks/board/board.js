@@ -2,7 +2,7 @@
 // The core counts and simulates; the mechanism is in the address of the page. Pictures and graphs are those of the player.
 
 import {close, create, freedoms, load, positions, pull, read, step, time, unit, violation} from "../core.js";
-import {addressOf, angleOf, bodyOf, checkedModel, drawnPlace, elementNamed, emptyModel, isJoint, lengthOf, modelOfAddress, ofKind, parsedModel} from "./model.js";
+import {addressOf, angleOf, bodyOf, checkedModel, drawnPlace, elementNamed, emptyModel, isJoint, lengthOf, modelOfAddress, ofKind, parsedModel, swingOf} from "./model.js";
 import {blockOf} from "./block.js";
 import {addBlock, addLink, addLoad, addMotor, addPin, addPoint, addSlot, addSpring, copyOf, moveTo, endsOf, partsAt, remove, takePoses, targetAt} from "./edit.js";
 import {looseOf, movesOf, placesOf, shapesOf, sidesOf, stretchedOf} from "./scene.js";
@@ -486,12 +486,13 @@ function lockedAt(error, m = board.mechanism) {
 const SAMPLES = 360, FREE = 2;      // of a turn; s, where no motor has a speed
 const NOTHING = {to: FREE, lines: [], paths: [], poses: [], told: ""}, turnOf = () => board.turn ?? NOTHING, linesOf = (name) => turnOf().lines.filter((line) => line.of === name || line.body === name);
 
-// One turn of the first motor with a speed, otherwise two seconds, by a mechanism of its own: as far as it gets.
+// One turn or swing of the first motor with a speed, otherwise two seconds, by a mechanism of its own: as far as it gets.
 function recordTurn() {
-  const motor = ofKind(board.model, "motor").find((each) => each.drives === "speed" && each.law), turn = {to: FREE, lines: [], paths: [], poses: [], told: "", isTurn: false};
+  const motor = ofKind(board.model, "motor").find((each) => each.drives === "speed" && each.law), turn = {to: FREE, lines: [], paths: [], poses: [], told: "", isTurn: false}, swing = motor && swingOf(motor);
   board.turn = turn;
   if (!board.mechanism) return;
-  if (motor && !elementNamed(board.model, motor.joint).axis) [turn.to, turn.isTurn] = [2 * Math.PI / Math.abs(motor.law), true];
+  if (swing) turn.to = 2 * Math.PI / swing.w;
+  else if (motor && !elementNamed(board.model, motor.joint).axis) [turn.to, turn.isTurn] = [2 * Math.PI / Math.abs(motor.law), true];
   const count = Math.max(1, Math.ceil(turn.to / SAMPLES / STEP)), step1 = turn.to / SAMPLES / count;
   let m = null;
   const points = ofKind(board.model, "point"), add = (of, name, unitOf, measured) => turn.lines.push({of, name, unit: unitOf, measured, values: []});
@@ -572,7 +573,7 @@ function lookAt(event) {
 function showTurn() {
   const lines = linesOf(board.chosen), {to, told, isTurn} = turnOf(), what = byId("turn-what"), names = ["", ...lines.map(({name}) => name)];
   const now = board.shown !== null ? to * board.shown / SAMPLES : board.mechanism && board.moved ? time(board.mechanism) % to : 0;
-  byId("turn-title").textContent = isTurn ? "Over a turn" : `Over ${FREE} s`;
+  byId("turn-title").textContent = isTurn ? "Over a turn" : `Over ${digits(turnOf().to)} s`;
   what.parentElement.hidden = !lines.length;
   if ([...what.options].map(({value}) => value).join() !== names.join()) what.replaceChildren(...names.map((name) => new Option(name || "all of a kind", name)));
   byId("turn").hidden = !lines.length;

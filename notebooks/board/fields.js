@@ -1,6 +1,6 @@
 // Numbers of a part that can be typed: label, value, and the change that a new value makes.
 
-import {DRIVES_OF, UNITS_OF, angleOf, drawnPlace, elementNamed, lengthOf} from "./model.js";
+import {DRIVES_OF, UNITS_OF, angleOf, drawnPlace, elementNamed, lengthOf, swingLaw, swingOf} from "./model.js";
 import {moveTo, rename} from "./edit.js";
 
 const needed = (value) => { if (!Number.isFinite(value)) throw new Error("a number is needed"); return value; };
@@ -13,7 +13,13 @@ const numberField = (label, name, key, more) => (model) => field(label, shown(el
 function linkFields(model, link) {
   return [
     field("length, m", shown(lengthOf(link)), (changed, value) => setLength(elementNamed(changed, link.name), needed(value)), {mustClose: true}),
-    numberField("mass, kg", link.name, "mass")(model)];
+    numberField("mass, kg", link.name, "mass")(model),
+    field("angle, °", shown(angleOf(link) / RAD), (changed, value) => {
+      const {start} = elementNamed(changed, link.name), length = lengthOf(elementNamed(changed, link.name)), angle = needed(value) * RAD;
+      moveTo(changed, `${link.name}.end`, [start[0] + length * Math.cos(angle), start[1] + length * Math.sin(angle)]);
+    }),
+    ...["start", "end"].flatMap((end) => ["x", "y"].map((axis, k) => field(`${end} ${axis}, m`, shown(link[end][k]), (changed, value) =>
+      moveTo(changed, `${link.name}.${end}`, elementNamed(changed, link.name)[end].map((each, i) => (i === k ? needed(value) : each))))))];
 }
 
 // The end moves along the link; the core then closes the loops.
@@ -50,9 +56,14 @@ function jointFields(model, joint) {
 }
 
 function motorFields(model, motor) {
-  const {kind} = elementNamed(model, motor.joint);
-  return [field("sets", motor.drives, (changed, drives) => { elementNamed(changed, motor.name).drives = drives; }, {choices: DRIVES_OF[kind]}),
-          numberField(`${motor.drives}, ${UNITS_OF[motor.drives][kind]}`, motor.name, "law")(model)];
+  const {kind} = elementNamed(model, motor.joint), swing = swingOf(motor), [unit, label] = kind === "revolute" ? [RAD, "°"] : [1, "m"];
+  const set = (changes) => (changed, value) => Object.assign(elementNamed(changed, motor.name), changes(value));
+  const sets = field("sets", swing ? "swing" : motor.drives, set((drives) => (drives === "swing" ? {drives: "speed", law: swingLaw(0.5 * Math.PI, Math.PI)} :
+    {drives, law: swing ? 2 : motor.law})), {choices: [...DRIVES_OF[kind], "swing"]});
+  if (!swing) return [sets, numberField(`${motor.drives}, ${UNITS_OF[motor.drives][kind]}`, motor.name, "law")(model)];
+  const {a, w} = swing, turn = 2 * Math.PI;
+  return [sets, field(`amplitude, ${label}`, shown(a / w / unit), set((value) => ({law: swingLaw(needed(value) * unit * w, w)}))),
+          field("frequency, Hz", shown(w / turn), set((value) => ({law: swingLaw(a / w * needed(value) * turn, value * turn)})))];
 }
 
 const springFields = (model, {name}) => [numberField("stiffness, N/m", name, "stiffness")(model), numberField("free length, m", name, "length")(model),

@@ -66,6 +66,18 @@ function checkedAxis(element) {
   return axis;
 }
 
+// Speed a cos(w t) of a motor that swings by a / w about the drawing, and the numbers a and w of such a law.
+export const swingLaw = (a, w) => ({expression: ["*", a, ["cos", ["*", w, "t"]]], of: {}});
+export const swingOf = ({law}) => (typeof law === "number" ? null : {a: law.expression[1], w: law.expression[2][1][1]});
+
+function checkedLaw(what, {law, drives}) {
+  if (drives !== "speed" || law === null || typeof law !== "object") return checkedNumber(`law of ${what}`, law);
+  const a = law.expression?.[1], w = law.expression?.[2]?.[1]?.[1];
+  if (JSON.stringify(law) !== JSON.stringify(swingLaw(a, w))) refuse(`law of ${what} must be a number or a cos(w t)`);
+  if (!checkedNumber(`amplitude of ${what}`, a) || !(checkedNumber(`frequency of ${what}`, w) > 0)) refuse(`${what} must swing: its amplitude and frequency must not be 0`);
+  return swingLaw(a, w);
+}
+
 const jointOf = (keys, more) => (element, known) => {
   checkedKeys(nameOf(element), element, ["kind", "name", "first", "second", ...keys]);
   if (keys.includes("cut") && element.cut !== false) refuse(`cut of ${nameOf(element)} must be false`);
@@ -95,7 +107,7 @@ const CHECKS = {
     if (!DRIVES_OF[joint.kind].includes(element.drives)) refuse(`${what} must drive ${DRIVES_OF[joint.kind].join(" or ")}`);
     if ([...known.values()].some((each) => each.kind === "motor" && each.joint === element.joint && each.drives === "speed" && element.drives === "speed"))
       refuse(`${what} must be the only motor that sets the speed of ${element.joint}`);
-    return {joint: element.joint, drives: element.drives, law: checkedNumber(`law of ${what}`, element.law)};
+    return {joint: element.joint, drives: element.drives, law: checkedLaw(what, element)};
   },
   point(element, known) {
     checkedKeys(nameOf(element), element, ["kind", "name", "body", "local"]);

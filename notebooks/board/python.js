@@ -1,6 +1,6 @@
 // The Python text of a mechanism of the drawing board, from a template for each kind of element.
 
-import {angleOf, bodyOf, elementNamed, turned} from "./model.js";
+import {angleOf, bodyOf, elementNamed, swingOf, turned} from "./model.js";
 
 const text = (name) => JSON.stringify(name);
 const number = (value) => String(value);
@@ -23,7 +23,10 @@ const LINES = {
   prismatic: (joint, model) => `m.prismatic(${text(joint.name)}, ${side(joint.first)}, ${side(joint.second)}${
     named({axis: drawnAxis(model, joint), damping: unlessZero(joint.damping)})})`,
   slot: (joint, model) => `m.slot(${text(joint.name)}, ${text(bodyOf(joint.first))}, ${side(joint.second)}${named({axis: drawnAxis(model, joint)})})`,
-  motor: ({name, joint, drives, law}) => `m.motor(${text(name)}, ${text(joint)}${named({[drives]: number(law)})})`,
+  motor(motor) {
+    const swing = swingOf(motor), law = swing ? `lambda t: ${swing.a} * math.cos(${swing.w} * t)` : number(motor.law);
+    return `m.motor(${text(motor.name)}, ${text(motor.joint)}${named({[motor.drives]: law})})`;
+  },
   point: ({name, body, local}) => `m.point(${text(name)}, ${text(body)}, ${pair(local)})`,
   force: ({name, point, along, value}) => `m.force(${text(name)}, ${side(point)}, ${pair(along)}, value=${number(value)})`,
   spring: ({name, first, second, ...values}) => `m.spring(${text(name)}, ${side(first)}, ${side(second)}${
@@ -36,7 +39,7 @@ const pathOf = (model) => {
 };
 
 export function pythonOf(model, span = 10, step = 1e-3) {
-  return `import zerodrift as zd
+  return `${model.elements.some((element) => element.kind === "motor" && swingOf(element)) ? "import math\n\n" : ""}import zerodrift as zd
 
 m = zd.Mechanism(${text(model.name)}, gravity=${pair(model.gravity)})
 ${model.elements.map((element) => LINES[element.kind](element, model)).join("\n")}

@@ -1,6 +1,6 @@
 // Shapes of a drawing for the player's picture.js, as it is drawn or in motion, and what is said of its mechanism.
 
-import {angleOf, bodyOf, drawnPlace, elementNamed, isJoint, lengthOf, localOf, ofKind, turned} from "./model.js";
+import {angleOf, bodyOf, drawnPlace, elementNamed, isJoint, lengthOf, localOf, ofKind, swingOf, turned} from "./model.js";
 
 // Places of sides: as drawn, or with the poses of mass centres p of a mechanism in motion.
 export function placesOf(model, p) {
@@ -44,8 +44,8 @@ export function shapesOf(model, p, size) {
     if (isOnGround) put("ground", joint.name, [b]);
     put(joint.kind === "weld" ? "weld" : "pin", joint.name, joint.kind === "weld" ? [b, [1, 0]] : [b]);
   }
-  for (const {name, joint, law} of ofKind(model, "motor")) {
-    const on = elementNamed(model, joint), b = placed(on.second);
+  for (const motor of ofKind(model, "motor")) {
+    const {name, joint} = motor, law = swingOf(motor)?.a ?? motor.law, on = elementNamed(model, joint), b = placed(on.second);
     if (on.axis) put("drive", name, [b, way(on), turned(Math.PI / 2, way(on))], law);
     else put("motor", name, [b], law);
   }
@@ -67,13 +67,13 @@ export function looseOf(model) {
   return ofKind(model, "link").map(({name}) => name).filter((name) => !held.has(name));
 }
 
-// "moves: yes, 1 freedom, driven by motor1".
+// "moves: yes, driven by motor1; freedom 0 (1 without it)": drives are constraints, as in Python.
 export function movesOf(model, free) {
   const motors = ofKind(model, "motor"), speeds = motors.filter((motor) => motor.drives === "speed").map(({name}) => name);
-  const pushing = motors.filter((motor) => motor.drives !== "speed").map(({name}) => name), count = free + speeds.length;
+  const pushing = motors.filter((motor) => motor.drives !== "speed").map(({name}) => name), count = free + speeds.length, given = speeds.length > 1 ? "them" : "it";
   if (!count) return "moves: no, its links hold each other";
   const by = [...(speeds.length ? [`driven by ${speeds.join(", ")}`] : []), ...(pushing.length ? [`pushed by ${pushing.join(", ")}`] : [])];
-  return `moves: yes, ${count} ${count > 1 ? "freedoms" : "freedom"}${by.length ? `, ${by.join(", ")}` : ""}`;
+  return `${["moves: yes", ...by].join(", ")}; freedom ${free}${speeds.length ? ` (${count} without ${given})` : ""}`;
 }
 
 // Links that lie in one line at a pin, in which a crank can be locked, for poses p of mass centres.
