@@ -7,6 +7,7 @@ from matplotlib.colors import to_hex
 import zerodrift as zd
 from few_bodies import falling_box
 from support import refused
+from zerodrift.player.live import live_view
 from zerodrift.plot.drawing import moments_of
 from zerodrift.plot.phases import COLOURS
 
@@ -88,6 +89,19 @@ def test_a_rod_is_drawn_while_it_is_joined():
     assert np.hypot(*(end - start)) == pytest.approx(2.8)
     ((start, end),) = (shape.points for shape in moments_of(sol, sol.p[-1:], sol.t[-1:])[0] if shape.kind == "rod")
     assert (start == end).all()
+    (held,) = (number for kind, _, _, number in live_view(zd.models.trebuchet())._scene["shapes"] if kind == "rod")
+    assert held == pytest.approx(2.8)       # at other lengths the page draws none
+
+
+def test_stops_of_coordinates_are_walls():
+    m = zd.Mechanism("ball")
+    ball, arm = m.particle("ball", 1.0, at=(0.2, 0.3)), m.link("arm", (1, 0), (2, 0), mass=1.0)
+    m.revolute("pin", m.ground, arm.start)
+    m.stop("x", ball.position.x, lower=-1, upper=0.8)
+    m.stop("y", arm.end.position.y, lower=-0.7)
+    sol = zd.simulate(m, 0.1)
+    found = [(shape.name, *shape.points.ravel()) for shape in moments_of(sol, sol.p[:1], sol.t[:1])[0] if shape.kind == "wall"]
+    assert found == [("x", -1, 0.3, 1, 0), ("x", 0.8, 0.3, -1, 0), ("y", 2, -0.7, 0, 1)]
 
 
 def test_grooves_that_a_pin_enters_and_leaves_are_as_long_as_it_goes_in_them():

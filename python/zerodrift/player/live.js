@@ -33,6 +33,10 @@ function locate() {
 
 function reshape() {
   const {effects, products, names} = scene.changes, value = names.map((name) => parameter(live.mechanism, name));
+  for (const shape of scene.shapes) {
+    const length = names.indexOf(`${shape[1]}.length`);
+    if (shape[0] === "rod" && shape[3] && length >= 0) shape[3] = value[length];      // of a rod that may be released
+  }
   for (let i = 0; i < effects.length; i += 3) {
     let sum = 0;
     for (let k = 7 * effects[i + 1]; k < 7 * (effects[i + 1] + effects[i + 2]); k += 7)

@@ -120,7 +120,8 @@ class Sketch:
         for joint, kind, pinned in self.kinds:
             second = posed.at(joint.second)
             if kind in ("rod", "coupled"):
-                yield Shape(kind, np.array([posed.at(joint.first), second]), joint.name)
+                length = joint.length_with(self.parts.numbers) if kind == "rod" and may_be_apart(joint) else 0.0
+                yield Shape(kind, np.array([posed.at(joint.first), second]), joint.name, length)
             elif kind == "wheel":
                 radius = abs(joint.length_with(self.parts.numbers))
                 if radius:

@@ -1,4 +1,4 @@
-"""Shapes of stops: blocks against which a slider, a link or a point comes to rest."""
+"""Shapes of stops: blocks against which a slider, a link or a point comes to rest; walls at limits of coordinates."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ...systems.shapes import Shape
+from ..elements.bodies import Point
 from ..elements.contacts import Stop
 from ..elements.frames import turned
 from ..elements.joints import Joint
@@ -18,7 +19,9 @@ ALONG = 0.6         # of a link's length: distance of its stop from the joint
 
 
 def stops(posed: Posed) -> Iterator[Shape]:
-    """Blocks of all stops of displacements, angles and lengths; stops of other measures have no shape."""
+    """Blocks of all stops of displacements, angles and lengths, and walls of those of coordinates of points; stops of other
+    measures have no shape.
+    """
     for stop in posed.parts.drawing.of(Stop):
         name, _, quantity = stop.of.rpartition(".")
         element: Any = posed.parts.drawing.elements.get(name)
@@ -35,6 +38,18 @@ def stops(posed: Posed) -> Iterator[Shape]:
                 along = posed.at(element.second) - start
                 along /= max(float(np.hypot(*along)), APART)
                 yield Shape("stop", np.array([start + limit * along, outward * along]), stop.name)
+            elif quantity in ("x", "y") and name.endswith(".position"):
+                yield _wall(name.removesuffix(".position"), "xy".index(quantity), limit, outward, stop.name, posed)
+
+
+def _wall(owner: str, axis: int, limit: float, outward: float, name: str, posed: Posed) -> Shape:
+    """Wall at a limit of a coordinate, beside the point as drawn."""
+    element, _, end = owner.partition(".")
+    of: Any = posed.parts.drawing.elements[element]
+    of = of.second if isinstance(of, Joint) else getattr(of, end) if end else of
+    place, inward = np.array(of.drawn_with(posed.parts.numbers) if isinstance(of, Point) else of.pose.origin), np.zeros(2)
+    place[axis], inward[axis] = limit, -outward
+    return Shape("wall", np.array([place, inward]), name)
 
 
 def _beside_link(joint: Joint, limit: float, outward: float, name: str, posed: Posed) -> Iterator[Shape]:
