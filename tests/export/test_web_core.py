@@ -142,6 +142,27 @@ def test_runs_have_the_bits_of_the_native_core_in_chromium(web, tmp_path):
         assert browser.errors == []
 
 
+def test_parameters_are_changed_in_the_phase_of_the_moment(web):
+    """A sling made longer while its projectile slides; a heavier arm after the sling has let go, which stays released."""
+    outputs = ["arm.start.position", "projectile.position"]
+    data = zd.block(zd.models.trebuchet(), step=5e-3, outputs=outputs, parameters={"sling.length": (2, 4), "arm.mass": (10, 20)})
+    found = web(f"""
+        const m = zd.create(core, block("it")), show = () => tell({outputs}.map((name) => Array.from(zd.read(m, name))));
+        zd.step(m, 40);
+        zd.setParameter(m, "sling.length", 3.0);
+        show();
+        zd.step(m, 240);
+        show();
+        zd.setParameter(m, "arm.mass", 18);
+        zd.step(m, 40);
+        show();
+        """, it=data)
+    lengths = [np.hypot(*np.subtract(*each)) for each in found]
+    assert lengths[0] == pytest.approx(3.0, abs=1e-12)
+    assert found[0][1][1] == pytest.approx(0.0, abs=1e-12)
+    assert lengths[2] > lengths[1] > 4
+
+
 def test_a_saved_run_goes_on_with_the_same_bits(web):
     data = zd.block(zd.models.four_bar(), step=1e-3, parameters={"coupler.length": (0.8, 1.3)})
     other = zd.block(zd.models.jansen(), step=1e-3, outputs=[])

@@ -7,6 +7,7 @@
 
 #include "../../workspace.h"
 #include "../block.h"
+#include "../made.h"
 #include "opened_memory.h"
 
 enum { MESSAGE = ZD_OPENED_MESSAGE };
@@ -113,8 +114,26 @@ int zd_opened_assemble(zd_opened *self, double t, const double *p, const double 
     const zd_system *system = zd_block_system(self->block);
     memmove(self->p, p, system->nq * sizeof *p);
     memcpy(self->v, v, system->nv * sizeof *v);
-    const int status = zd_project(system, &self->settings, t, self->p, self->v, NULL, NULL, NULL, self->message, MESSAGE);
+    signed char *state = zd_allocate(system->groups + 1);
+    for (int g = 0; state && g < system->groups; g++) state[g] = system->group[g].kind != ZD_FRICTION && system->group[g].is_active;
+    zd_system *phase = state ? zd_phase_new(system, state) : NULL;
+    const zd_system *of = system->groups ? phase : system;
+    zd_settings settings = self->settings;
+    settings.events = NULL;     /* their actions may be on groups */
+    const int status = !phase ? ZD_NO_MEMORY
+                     : zd_project(of, &settings, t, self->p, self->v, NULL, NULL, NULL, self->message, MESSAGE);
+    zd_phase_free(phase);
+    zd_release(state);
     return status ? status : zd_opened_restart(self, t, self->p, self->v);
+}
+
+/* Joints that may be released are joined at the start of the block, and contacts closed, as in a run; without a run, as at the start of
+ * another block. */
+static void set_joined(zd_block *block, const zd_run *run, const zd_block *other)
+{
+    const zd_transition *last = run ? zd_run_transition(run) : NULL;
+    zd_group *group = (zd_group *)block->system.group;
+    for (int g = 0; g < block->system.groups; g++) group[g].is_active = last ? last->state[g] == 1 : other->system.group[g].is_active;
 }
 
 /* Takes the place of the present block, whose number of coordinates is the same, at its state; on failure the present one stays. */
@@ -127,9 +146,11 @@ static int replace(zd_opened *self, zd_block *block)
     self->run = NULL;
     int status = zd_block_settings(block, &self->settings, self->message, MESSAGE);
     self->settings.is_open = 1;
+    set_joined(block, before.run, before.block);
     if (!status) status = zd_opened_assemble(self, t, zd_run_p(before.run), zd_run_v(before.run));
     if (status && !zd_opened_find_positions(self, t, zd_run_p(before.run)))
         status = zd_opened_assemble(self, t, self->p, zd_run_v(before.run));
+    set_joined(block, NULL, before.block);
     if (status) {
         zd_block_explain_start(block, self->message, MESSAGE);
         self->block = before.block;

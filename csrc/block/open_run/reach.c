@@ -87,6 +87,15 @@ static void name_missed(struct zd_opened *self, const double *residual, const do
     }
 }
 
+/* Role of a row: drives and joints; those that are not active at the start are ignored. */
+static int role_of(const zd_block *block, int row)
+{
+    for (const zd_group *group = block->system.group; group < block->system.group + block->system.groups; group++)
+        if (row >= group->first && row < group->first + group->rows && !(group->kind == ZD_TWO_SIDED && group->is_active))
+            return ZD_ROLE_IGNORED;
+    return block->names.owner[row].owner == ZD_OF_RELATION ? ZD_ROLE_DRIVE : ZD_ROLE_JOINT;
+}
+
 int zd_opened_find_positions(struct zd_opened *self, double t, const double *p)
 {
     const zd_block *block = self->block;
@@ -94,7 +103,7 @@ int zd_opened_find_positions(struct zd_opened *self, double t, const double *p)
     double *residual = zd_allocate(3 * m * sizeof *residual), *size = residual + m;
     if (!residual) return ZD_NO_MEMORY;
     int *role = (int *)(size + m);
-    for (int k = 0; k < block->system.mh; k++) role[k] = block->names.owner[k].owner == ZD_OF_RELATION ? ZD_ROLE_DRIVE : ZD_ROLE_JOINT;
+    for (int k = 0; k < block->system.mh; k++) role[k] = role_of(block, k);
     const zd_assembly_problem given = {.system = &block->system, .t = t, .length = zd_block_length(block), .role = role, .residual = residual,
                                      .size = size};
     memcpy(self->p, p, block->system.nq * sizeof *p);
