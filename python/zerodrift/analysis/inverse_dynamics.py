@@ -12,11 +12,12 @@ from .._private import checks
 from .._private.gateway import needed_efforts
 from .._private.types import ArrayLike, Measures, SystemLike, Values
 from ..errors import AccuracyWarning, InconsistentStart, SingularSystem, WrongType, WrongValue
-from ..systems.base import BaseSystem, Makes, core_of, unswitched
+from ..systems.base import BaseSystem, Makes, core_of, system_of
 from . import read_forces
 from .effort_result import Efforts
 from .kinematic_result import Kinematics
 from .names import dominant
+from .phase_of_motion import of_motion, warn_of_forces
 from .quantities import components, conjugate, names_of, rates_of, values_of
 from .state import State, scales, small_core, state
 from .tangent import NO_MASS, Tangent
@@ -33,6 +34,9 @@ def inverse_dynamics(system: SystemLike, motion: Kinematics | ArrayLike, p: Arra
     The equations of motion (2) are projected onto the velocities that the constraints allow and solved for the efforts; the
     remainder gives the multipliers. With fewer efforts than freedoms the residual is the smallest in the mass metric; with
     more, the sum of the squares of ``effort / weight`` is.
+
+    Contacts, stops and dry friction are in the phase of the motion: closed contacts and sticking friction are constraints,
+    sliding friction is a force. ``inv.system.phase`` has the phase by name.
 
     Parameters
     ----------
@@ -59,12 +63,13 @@ def inverse_dynamics(system: SystemLike, motion: Kinematics | ArrayLike, p: Arra
     InconsistentStart
         If the motion violates the constraints (3), (5) or (6).
     ValueError, TypeError
-        For a wrong argument, such as kinematics of positions alone, which have no rates.
+        For a wrong argument, such as kinematics of positions alone, which have no rates, or a motion whose phase changes.
 
     Warns
     -----
     AccuracyWarning
-        If the efforts cannot drive the motion, as at a dead point; the direction is named.
+        If the efforts cannot drive the motion, as at a dead point; the direction is named. If contacts would pull, or friction
+        that sticks would exceed its bound.
 
     Examples
     --------
@@ -77,7 +82,7 @@ def inverse_dynamics(system: SystemLike, motion: Kinematics | ArrayLike, p: Arra
     >>> inv["pin.angle"].round(9)       # 3 * 2**2 / 3 * 1.5 + 3 * 9.81
     array([35.43])
     """
-    given, system = system, unswitched(system, "inverse dynamics")
+    given, system = system, system_of(system)
     core_of(system)
     names = None if efforts is None else names_of(efforts, "efforts")
     if isinstance(motion, Kinematics):
@@ -92,7 +97,11 @@ def inverse_dynamics(system: SystemLike, motion: Kinematics | ArrayLike, p: Arra
         samples = _samples(system, motion, p, v, vdot)
     if names is None:
         raise WrongValue("efforts must be given with a motion in coordinates: where it is driven", "conflicting-arguments")
-    return _solved(system, samples, names, _weights(weights, names))
+    system = of_motion(system, samples)
+    found = _solved(system, samples, names, _weights(weights, names))
+    if hasattr(system, "phases_of"):
+        warn_of_forces(system, found.t, found.multipliers)
+    return found
 
 
 def _in_coordinates_of(motion: Kinematics, given: Any) -> BaseSystem:

@@ -12,9 +12,11 @@ from .._private import checks
 from .._private.gateway import Tracked
 from .._private.types import ArrayLike, Motions, SystemLike, Values
 from ..errors import AccuracyWarning, InconsistentStart, LockedWarning, SingularSystem, WrongValue
-from ..systems.base import BaseSystem, core_of, unswitched
+from ..systems.base import BaseSystem, core_of, system_of
 from .kinematic_result import Kinematics
 from .names import dominant
+from .phase import in_phase
+from .phase_of_motion import at_start, warn_of_gaps
 from .prescribed import Prescribed, prescribed
 from .quantities import is_velocity, rates_of, values_of
 from .retraction import near_to, prescribing
@@ -29,7 +31,8 @@ def kinematics(system: SystemLike, motion: Motions | None = None, t: ArrayLike |
     """Motion by prescribed quantities, or by the drives alone, without forces and masses; inverse kinematics of a robot.
 
     Positions are tracked sample by sample on one assembly branch. Velocities and accelerations follow from (5) and (6) with the
-    constraints of the prescribed quantities. Drives of the system run at the times of the samples.
+    constraints of the prescribed quantities. Drives of the system run at the times of the samples. Contacts and stops that touch
+    at the start stay closed, and friction does not matter.
 
     Parameters
     ----------
@@ -66,7 +69,7 @@ def kinematics(system: SystemLike, motion: Motions | None = None, t: ArrayLike |
     LockedWarning
         If samples lie beyond a dead point; the message has the limit. Later ones that are within reach again are found.
     AccuracyWarning
-        If an array over time is too coarse for its derivatives.
+        If an array over time is too coarse for its derivatives. If the motion passes a contact that is open at its start.
 
     Examples
     --------
@@ -82,7 +85,7 @@ def kinematics(system: SystemLike, motion: Motions | None = None, t: ArrayLike |
     >>> bool(abs(kin["crank.end.acceleration.x"] + 18 * np.cos(3 * kin.t)).max() < 1e-12)
     True
     """
-    system = unswitched(system, "kinematics")
+    system = system_of(system)
     core_of(system)
     given = {} if motion is None else values_of(motion, "motion")
     times = None if t is None else checks.increasing("t", t, -np.inf, np.inf)
@@ -90,6 +93,9 @@ def kinematics(system: SystemLike, motion: Motions | None = None, t: ArrayLike |
         speed = _speed(speed, given, times)
     wanted = {name: prescribed(f"motion[{name!r}]", value, times, speed) for name, value in given.items()}
     times = _times(wanted, times, speed)
+    if system._groups:
+        p = near_to(in_phase(system, [0] * len(system._groups)), near, times[0])
+        system, near = at_start(system, times[0], p), p
     p = near_to(system, near, times[0])
     rows = _rows_of(system, times[0], p, wanted)
     value, *rates = (np.hstack([times[:, None], *(getattr(each, order) for each in wanted.values())])
@@ -100,6 +106,8 @@ def kinematics(system: SystemLike, motion: Motions | None = None, t: ArrayLike |
         _check_freedom(state(system, times[0], p, np.zeros(system.nv)), rows, tuple(wanted))
     _report(system, tracked, times, wanted)
     _warn_of_errors(wanted)
+    if hasattr(system, "phases_of"):
+        warn_of_gaps(system, times, tracked.p)
     return Kinematics(system, times, *tracked[:3], {name: each.error for name, each in wanted.items()}, tuple(wanted))
 
 

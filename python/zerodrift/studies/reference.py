@@ -11,7 +11,7 @@ from .._private.gateway.compiled.precise import Precise
 from .._private.types import ArrayLike, Formulation, StabilizationName, SystemLike
 from ..errors import UnreachableTolerance, WrongValue, ZerodriftError
 from ..runs.arguments import methods, settings
-from ..systems.base import BaseSystem, system_of, unswitched
+from ..systems.base import BaseSystem, system_of
 from .certificate import Reference
 from .reference_precise import PRECISIONS, PreciseSearch, functions_of
 from .reference_runs import Difference, Motion
@@ -97,6 +97,10 @@ def reference(
 
     Notes
     -----
+    With contacts, stops or dry friction, all runs that are compared must have the same sequence of phases; changes within 1e-9 of
+    the span count as one. The caveats name the open contact that passes its shape most closely, and bounces that are omitted.
+    Without `t_eval`, samples are at equal distances in time, and the arithmetic is double precision.
+
     Start and parameters count as exact in double precision; in double-double arithmetic what follows from them, such as dependent
     coordinates of the start, is computed with 32 digits, and can be read at the first sample. Fractions in expressions are exact;
     other numbers, such as pi, are the doubles nearest to them. In a sensitive motion, the rounding of a decimal parameter may
@@ -121,7 +125,7 @@ def reference(
     True
     """
     wanted = None if error is None else checks.number("error", error, above=0)
-    system = unswitched(system_of(system, p0, v0), "a reference")
+    system = system_of(system, p0, v0)
     pairs = _pairs(system, formulations)
     bounds = {"first_step": first_step, "max_step": max_step, "max_move": max_move}
     motion = Motion(system, checks.span(t_span), p0, v0, t_eval, stabilization, pairs[0][0], bounds)
@@ -145,7 +149,7 @@ def _functions(system: BaseSystem, precision: str | None) -> Precise | None:
     """Functions in double-double arithmetic, if they may be used; ValueError where they are requested and there are none."""
     if precision is not None:
         checks.choice("precision", precision, PRECISIONS)
-    functions = functions_of(system, precision)
+    functions = None if system._groups else functions_of(system, precision)
     if functions is None and precision == PRECISIONS[1]:
         raise WrongValue(f"precision must be 'double', as {system.name} has no functions in double-double arithmetic: built-in "
                          "systems have some, and compiled ones of expressions without cases", "not-available")

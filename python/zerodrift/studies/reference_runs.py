@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import itertools
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -22,6 +23,8 @@ from ..systems.base import BaseSystem, core_of
 SERIES: Any = "taylor"   # integrator of arbitrary order
 EPS = float(np.finfo(float).eps)
 PROBE = 1e-5        # tolerance of the adaptive run that determines the number of steps
+SAMPLES = 240       # of a motion with contacts, at least
+ONE_INSTANT = 1e-9  # part of the span; changes of phase that are closer count as one
 UNIT = 3            # numbers of steps are multiples of this, as other runs have two and five thirds of them
 
 
@@ -43,6 +46,7 @@ class Perturbed(BaseSystem):
         self.name, self.parameters, self.p0, self.v0 = system.name, system.parameters, None, None
         self.coordinates, self.velocities, self.constraints = system.coordinates, system.velocities, system.constraints
         self._core, self._system = gateway.perturbed(core_of(system), size, seed), system
+        self._groups, self._latches, self._watching = system._groups, system._latches, system._watching
 
     def _with_series(self, core: Any, vector: str = "baseline") -> gateway.CoreSystem:
         return self._system._with_series_of_perturbed(core, vector)
@@ -82,11 +86,14 @@ class Motion:
             probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, formulation=formulation, integrator=self.method,
                              stabilization=stabilization, closed_form=False, **bounds)
         self.size, self.probe, self.bounds = float(np.abs(probe.p).max()), probe, bounds
-        self.speed = float(np.abs(np.diff(probe.p, axis=0) / np.diff(probe.t)[:, None]).max(initial=0.0))
+        self.speed = float(_rates(probe.t, probe.p).max(initial=0.0))
         max_move = bounds.get("max_move")
         longest = min(bounds["max_step"] or math.inf, max_move / self.speed if max_move and self.speed else math.inf)
         self.most = math.ceil((span[1] - span[0]) / longest) or 1
         self.steps = UNIT * math.ceil(max(probe.stats["steps"], self.most) / UNIT)
+        self.disagreement = ""      # first difference between the phases of runs, in words
+        if system._groups and t_eval is None:       # steps end at changes of phase, each run's own
+            self.t_eval = np.linspace(*span, max(self.steps, SAMPLES) + 1)
         self.shift = [_shift(probe.t, x) for x in (probe.p, probe.v)]
 
     def shift_at(self, samples: np.ndarray) -> list[float]:
@@ -165,7 +172,7 @@ class Motion:
         rows = math.gcd(steps, way.steps)
         run = run or self.run(way, rows)
         p, v = math.inf, math.inf
-        if run is not None:
+        if run is not None and not self._differs_in_phases(motion, run):
             every, its = (1, 1) if self.t_eval is not None else (steps // rows, (len(run.t) - 1) // rows)
             p, v = (float(np.abs(own[::every] - others[::its]).max()) for own, others in zip(
                 (motion.p, motion.v), self._in_own_coordinates(run, way), strict=True))
@@ -173,10 +180,29 @@ class Motion:
         return Difference(way.steps, equations, p, v, way.integrator, way.rounding > 0)
 
 
+    def _differs_in_phases(self, motion: Solution, run: Solution) -> bool:
+        """True if the phases of two runs are not the same; the first difference is noted."""
+        differ = (each for each in itertools.zip_longest(*map(_sequence, (motion, run)), fillvalue="the end")
+                  if each[0].partition(": ")[2] != each[1].partition(": ")[2])
+        if apart := next(differ, None):
+            self.disagreement = f"{apart[0]} in one run, and {apart[1]} in another one"
+        return apart is not None
+
+
+def _sequence(run: Solution) -> list[str]:
+    """The phases of a run in words; of changes at one instant, which rounding orders, the last."""
+    return [str(phase) for phase in run.phases if phase.t1 - phase.t0 > ONE_INSTANT * (run.t[-1] - run.t[0])]
+
+
+def _rates(t: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """Largest rate of change of x between samples, (k - 1,); 0 where it jumps."""
+    step = np.diff(t)
+    return np.divide(np.abs(np.diff(x, axis=0)).max(axis=1), step, out=np.zeros(len(step)), where=step > 0)
+
+
 def _shift(t: np.ndarray, x: np.ndarray, samples: np.ndarray | None = None) -> float:
     """Largest change of x by rounding of the time and of the elapsed time; at samples, with the rates around them."""
-    rates = np.abs(np.diff(x, axis=0)).max(axis=1) / np.diff(t)
-    by_step = rates * (np.abs(t) + t - t[0])[1:]
+    by_step = _rates(t, x) * (np.abs(t) + t - t[0])[1:]
     if samples is not None:
         steps = np.clip(np.searchsorted(t, samples) - 1, 0, len(by_step) - 1)
         by_step = by_step[np.clip(np.add.outer((-1, 0, 1), steps), 0, len(by_step) - 1)]

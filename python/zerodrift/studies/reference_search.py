@@ -43,6 +43,7 @@ from ..runs.arguments import methods
 from ..runs.samples.solution import Solution
 from ..systems.base import core_of
 from .certificate import Reference
+from .reference_phases import of_phases
 from .reference_runs import EPS, UNIT, Difference, Motion, Way
 
 SAFETY = 1.5        # the certified error, in units of the root of the sum of squares of all differences
@@ -106,6 +107,9 @@ class Search:
                 previous = halved.p
             coarse, steps = fine, 2 * steps
         if best is None or best.error > max(RESOLVED * motion.size, self.wanted):
+            if motion.disagreement:
+                raise UnreachableTolerance("all runs that are compared must have the same sequence of phases, and it is "
+                                           f"{motion.disagreement}. Ask for a shorter t_span")
             raise UnreachableTolerance(f"no error can be certified: runs still differ with {last} steps; the motion takes "
                                        "shorter ones, or multiplies round-off until nothing is left. Ask for a shorter t_span")
         return best
@@ -243,6 +247,8 @@ class Search:
             yield COORDINATES
         if not (motion.is_plain or motion.bounded or motion.bounds.get("max_move")):
             yield PLACE.format(apart=apart * motion.speed)
+        if motion.system._groups:
+            yield from of_phases(found.solution)
         ratios = [a / b for a, b in ((previous, halved), (halved, finer)) if b]      # the finer run differs by the error itself
         if not self._is_rounding(found) and min(ratios, default=math.inf) < SMOOTH_RATIO:
             yield SMOOTH.format(ratio=min(ratios), most=2.0**methods.integrators()[motion.method].order)
