@@ -6,11 +6,11 @@
 #include "../linalg/small.h"
 #include "../point/point.h"
 
-enum { POINTS = 4, ORDERS = 3, STEPS = 3 };
+enum { POINTS = 4, ORDERS = 3, STEPS = 5 };
 /* Weights of f(k h) - f(-k h), k = 1 ... 4, over h: of eighth, sixth and fourth order */
 static const double WEIGHT[ORDERS][POINTS] = {
     {4. / 5, -1. / 5, 4. / 105, -1. / 280}, {3. / 4, -3. / 20, 1. / 60, 0}, {2. / 3, -1. / 12, 0, 0}};
-static const double STEP[STEPS] = {2e-2, 2e-3, 5e-4};      /* characteristic scales: a shorter one where the orders disagree */
+static const double STEP[STEPS] = {2e-2, 2e-3, 5e-4, 2e-5, 1e-6};      /* characteristic scales: a shorter one where the orders disagree */
 static const double CENTRAL_STEP = 1e-4;
 static const double AGREE = 1e-10;      /* difference of the orders relative to the derivative that is accepted */
 

@@ -102,6 +102,16 @@ def test_the_nearest_point_of_a_bounded_shape_pushes(shape, start, speed, tmp_pa
     assert np.abs(sol.energy_violation).max() < 1e-9
 
 
+@pytest.mark.parametrize("stiffness", [1e3, 1e4, 1e5])
+def test_vibrations_on_a_stiff_floor_that_is_hardly_pressed(stiffness):
+    """The depth at rest, G / stiffness, is much less than the length of the segment."""
+    m = zd.Mechanism("ball", gravity=(0, -G))
+    ball = m.body("ball", 1.0, 0.01, at=(0.5, 0.08))
+    m.contact("floor", ball, m.ground.segment((0, 0), (1, 0)), radius=0.1, stiffness=stiffness)
+    found = zd.linearize(m, zd.equilibrium(m)).frequencies
+    assert found == pytest.approx(np.full(2, np.sqrt(stiffness) / (2 * np.pi)), rel=1e-6)
+
+
 @pytest.mark.parametrize(("given", "words"), [({"restitution": 0.5}, "no restitution"), ({"friction": 0.5}, "no friction"),
                                               ({"exponent": 0.5}, "exponent of 'c'"), ({"damping": -1.0}, "damping of 'c'")])
 def test_what_does_not_go_together_is_refused(given, words):
