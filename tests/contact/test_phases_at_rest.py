@@ -131,3 +131,10 @@ def test_a_single_state_is_in_the_phase_that_a_run_begins_with():
     assert zd.Instant(system, 0.0, [0.0], [3.0])["slide.force"] == pytest.approx([-4, 2 * G])
     with pytest.raises(ValueError, match="impact"):
         zd.acceleration(ball().system("absolute"), [0.0, 0.0], [0.0, -1.0])
+
+
+def test_drives_that_move_are_named():
+    """The crank of the Geneva drive turns, and the shaker of the suspension starts with an acceleration of 0.06 * 11^2."""
+    for model, acceleration in ((zd.models.geneva, "of 0"), (zd.models.suspension, r"of 7\.26")):
+        with pytest.raises(zd.EquilibriumFailed, match=f"'drive' of .* moves at t = 0, .*acceleration {acceleration}"):
+            zd.equilibrium(model())

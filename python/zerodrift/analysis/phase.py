@@ -15,7 +15,7 @@ from ..runs.states.operations import phase_at as phase_of_run
 from ..systems.base import BaseSystem, core_of
 from .rest import Balance, Search
 from .retraction import near_to, onto
-from .state import scales, state
+from .state import State, scales, state
 
 CLOSED, SLIDING, IDLE = 1, (2, 3), 4     # states of a group as `zd_transition` has them
 PHASES = 50             # tried for one equilibrium
@@ -105,6 +105,7 @@ def resting(system: BaseSystem, t: float, near: Any, *, is_downhill: bool) -> tu
     released = in_phase(system, [CLOSED if kind == "two-sided" and core.c.group[g].is_active else 0
                                  for g, (_, kind) in enumerate(system._groups)])
     p, iterations, forced = near_to(released, near, t), 0, None
+    _check_drives(state(released, t, p, zero))
     for _ in range(PHASES):
         found = _found(system, t, p, zero)
         if _is_at_rest(system, t, p, found.vdot):
@@ -130,6 +131,17 @@ def resting(system: BaseSystem, t: float, near: Any, *, is_downhill: bool) -> tu
     last = ", ".join(f"{name} {word}" for name, word in in_phase(system, found.state).phase.items())
     raise EquilibriumFailed(f"{system.name} must have a position in which its forces balance with contacts that push and "
                             f"friction within its bounds, and none was found; the last phase is: {last}")
+
+
+def _check_drives(at: State) -> None:
+    """Refuses drives that move, as contacts follow from the forces of their motion, not from those of a drive that is held."""
+    rates = np.maximum(np.abs(at.Phi_t), np.abs(at.xi))
+    if rates.max(initial=0.0) > AT_REST * scales(at.system, at.p).length:
+        row = int(rates.argmax())
+        name, speed, acceleration = at.system.constraints[row].name, abs(at.Phi_t[row]), abs(at.xi[row])
+        raise EquilibriumFailed(f"drives of a system with contacts must be at rest in its equilibrium, and {name!r} of "
+                                f"{at.system.name} moves at t = {at.t:g}, with a speed of {speed:.3g} and an acceleration of "
+                                f"{acceleration:.3g}: hold it by a constant, or give a t at which it rests")
 
 
 def _is_at_rest(system: BaseSystem, t: float, p: np.ndarray, vdot: np.ndarray) -> bool:
