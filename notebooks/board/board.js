@@ -573,7 +573,7 @@ function lookAt(event) {
 function showTurn() {
   const lines = linesOf(board.chosen), {to, told, isTurn} = turnOf(), what = byId("turn-what"), names = ["", ...lines.map(({name}) => name)];
   const now = board.shown !== null ? to * board.shown / SAMPLES : board.mechanism && board.moved ? time(board.mechanism) % to : 0;
-  byId("turn-title").textContent = isTurn ? "Over a turn" : `Over ${digits(turnOf().to)} s`;
+  byId("turn-title").textContent = isTurn ? "Over a turn" : `Over ${+to.toPrecision(3)} s`;
   what.parentElement.hidden = !lines.length;
   if ([...what.options].map(({value}) => value).join() !== names.join()) what.replaceChildren(...names.map((name) => new Option(name || "all of a kind", name)));
   byId("turn").hidden = !lines.length;

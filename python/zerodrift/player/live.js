@@ -80,7 +80,7 @@ function draw() {
 
 function tell() {
   const m = live.mechanism, {freedoms: count, redundant} = freedoms(m), extra = redundant.length ? ` · redundant: ${redundant.join(", ")}` : "";
-  words.state.textContent = `t = ${time(m).toFixed(2)} s · degrees of freedom ${count}${extra}`;
+  words.state.textContent = `t = ${time(m).toFixed(2)} s · freedom ${count}${extra}`;
 }
 
 // ---- the last seconds: violation and energy error on a logarithmic scale, graphs, and ways of points ----
