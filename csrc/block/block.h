@@ -52,7 +52,7 @@
 #include "../laws/program.h"
 #include "../zerodrift.h"
 
-enum { ZD_BLOCK_VERSION = 6 };
+enum { ZD_BLOCK_VERSION = 7 };
 
 enum zd_block_section {
     ZD_BLOCK_GRAVITY, ZD_BLOCK_BODIES, ZD_BLOCK_JOINTS, ZD_BLOCK_QUANTITIES,

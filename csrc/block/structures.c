@@ -26,7 +26,7 @@ static const zd_block_structure both[] = {
         ZD_INT_FIELD(zd_element_group, sign), ZD_INT_FIELD(zd_element_group, is_active), ZD_INT_FIELD(zd_element_group, normal),
         ZD_INT_FIELD(zd_element_group, load_joint), ZD_INT_FIELD(zd_element_group, load_component),
         ZD_INT_FIELD(zd_element_group, loads),
-        ZD_DOUBLES_FIELD(zd_element_group, load_factor, 3), ZD_INT_FIELD(zd_element_group, is_largest),
+        ZD_DOUBLES_FIELD(zd_element_group, load_factor, 4), ZD_INT_FIELD(zd_element_group, at_ends),
         ZD_DOUBLES_FIELD(zd_element_group, scale, 1), ZD_DOUBLES_FIELD(zd_element_group, value, 1),
         ZD_DOUBLES_FIELD(zd_element_group, restitution, 1),
         ZD_DOUBLES_FIELD(zd_element_group, friction, 2), ZD_INT_FIELD(zd_element_group, range), ZD_INT_FIELD(zd_element_group, opposite),

@@ -90,6 +90,7 @@ static void fill_reading(zd_phase_system *self)
         const zd_group *group = full->group + g;
         if (group->kind != ZD_FRICTION || !zd_slides(self->state[g])) continue;
         zd_sliding *it = self->sliding + self->slidings++;
+        self->slides_in_planes |= group->rows == 2;
         *it = (zd_sliding){g, -1, all->count, 0};
         if (!is_sliding_with_load(group, self->state[g])) continue;
         it->input = all->functions;
@@ -131,8 +132,12 @@ zd_phase_system *zd_phase_system_create(zd_arena *arena, const zd_system *full, 
     self->tie_factor = zd_arena_doubles(arena, groups);
     self->bias = zd_arena_doubles(arena, groups);
     self->lambda = zd_arena_doubles(arena, m);
-    self->known_p = zd_arena_doubles(arena, full->nq);
-    self->known_v = zd_arena_doubles(arena, full->nv);
+    self->direction = zd_arena_doubles(arena, 2 * (size_t)groups);
+    self->speed = zd_arena_doubles(arena, groups);
+    self->slow = ZD_SLOW * (full->length > 0 ? full->length : 1);
+    const zd_known_terms known = {.p = zd_arena_doubles(arena, full->nq), .v = zd_arena_doubles(arena, full->nv),
+                                  .row = zd_arena_doubles(arena, full->nv)};
+    self->known = zd_arena_copy(arena, &known, sizeof known);
     self->scratch = zd_arena_doubles(arena, full->scratch + self->size_of_C + full->mh + 2 * (size_t)m);
     self->layout = zd_layout_create(arena, full);
     if (arena->base) {

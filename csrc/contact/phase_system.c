@@ -2,12 +2,20 @@
  * friction that sticks are constraints on velocities. Friction that slides is a force along its row: of a fixed size, or a user function u of
  * the load that it reads, for which the core solves together with the accelerations (motion/reactions.c):
  *
- *     f + C_s^T u,     u = -sign(slip) mu N        power + u C_s v
+ *     f + C_s^T e u,     u = -mu N        power + u e C_s v
+ *
+ * e is the sign of the slip velocity s of one row, or the direction of that of two, s / |s|. Where s passes through zero, e must not change,
+ * or no step could reach the instant at which friction begins to stick; and errors of a slow s must not turn it. So with d the direction at
+ * the start of the step,
+ *
+ *     e = w / |w|,      w = s + slow d exp(-|s|^2 / slow^2),      with -s in the place of s where s . d < 0
  */
 #include "phase_system.h"
 
 #include <math.h>
 #include <string.h>
+
+static const double REVERSED = 1e-6;        /* cosine of two directions of slip, up to which they have reversed */
 
 /* ---- memory of the full system's constraints ---- */
 
@@ -39,21 +47,73 @@ static zd_terms terms_in(const zd_phase_system *self, const zd_terms *out)
     return terms;
 }
 
-int zd_phase_evaluate(zd_phase_system *self, int want, double t, const double *p, const double *v)
+int zd_phase_evaluate(const zd_phase_system *self, int want, double t, const double *p, const double *v)
 {
     const zd_system *full = self->full;
     const zd_terms own = {.scratch = self->scratch, .inputs = NULL}, terms = terms_in(self, &own);
     const int status = full->evaluate(full->data, (want & full->provides) | ZD_MOVED, t, p, v, &terms);
     if (!status && want & ZD_PHI_T && !(full->provides & ZD_PHI_T)) zd_clear(zd_constraints(full), terms.Phi_t);
-    self->known = 0;
+    self->known->terms = 0;
     return status;
 }
 
-double zd_phase_slip(const zd_phase_system *self, int index, const double *v)
+int zd_phase_know(const zd_phase_system *self, int want, double t, const double *p, const double *v)
 {
-    const int first = self->full->group[index].first;
-    const zd_row_of_C row = zd_phase_row(self, first);
-    return zd_row_times(&row, v) + zd_phase_Phi_t(self)[first];
+    zd_known_terms *known = self->known;
+    const size_t size_p = self->full->nq * sizeof *p, size_v = self->full->nv * sizeof *v;
+    int terms = known->terms;
+    if (terms && (t != known->t || memcmp(p, known->p, size_p) || memcmp(v, known->v, size_v))) terms = 0;
+    if ((terms & want) == want) return ZD_DONE;
+    const int status = zd_phase_evaluate(self, want, t, p, v);
+    if (status) return status;
+    known->terms = terms | want;
+    known->t = t;
+    memcpy(known->p, p, size_p);
+    memcpy(known->v, v, size_v);
+    return ZD_DONE;
+}
+
+/* Slip velocity of a group, from constraints in scratch memory. */
+static void slip_in(const zd_phase_system *self, double *scratch, int index, const double *v, double *slip)
+{
+    const zd_group *group = self->full->group + index;
+    for (int i = 0; i < group->rows; i++) {
+        const zd_row_of_C row = row_in(self, C_in(self, scratch), group->first + i);
+        slip[i] = zd_row_times(&row, v) + Phi_t_in(self, scratch)[group->first + i];
+    }
+}
+
+void zd_phase_slip(const zd_phase_system *self, int index, const double *v, double *slip) { slip_in(self, self->scratch, index, v, slip); }
+
+/* e of the sliding friction of a group, (rows,) */
+static void find_direction(const zd_phase_system *self, double *scratch, int index, const double *v, double *e)
+{
+    e[0] = zd_slip_sign(self->state[index]);
+    if (self->full->group[index].rows == 1) return;
+    const double *d = self->direction + 2 * index;
+    double s[2];
+    slip_in(self, scratch, index, v, s);
+    const double sign = s[0] * d[0] + s[1] * d[1] < 0 ? -1 : 1;
+    const double ratio = hypot(s[0], s[1]) / self->slow, kept = self->slow * exp(-ratio * ratio);
+    for (int i = 0; i < 2; i++) s[i] = sign * s[i] + kept * d[i];
+    const double size = hypot(s[0], s[1]);
+    for (int i = 0; i < 2; i++) e[i] = size > 0 ? s[i] / size : 0;
+}
+
+int zd_phase_turn(const zd_phase_system *self, int is_start, double t, const double *p, const double *v)
+{
+    for (int g = 0; self->slides_in_planes && g < self->full->groups; g++) {
+        if (self->full->group[g].rows != 2 || !zd_slides(self->state[g])) continue;
+        const int status = zd_phase_know(self, ZD_C | ZD_PHI_T, t, p, v);
+        if (status) return status;
+        double s[2], *d = self->direction + 2 * g;
+        zd_phase_slip(self, g, v, s);
+        const double size = hypot(s[0], s[1]);
+        if (size <= self->slow || (!is_start && d[0] * s[0] + d[1] * s[1] <= REVERSED * size)) continue;
+        self->speed[g] = size;
+        d[0] = s[0] / size, d[1] = s[1] / size;
+    }
+    return ZD_DONE;
 }
 
 double zd_phase_gap(const zd_phase_system *self, int index)
@@ -74,7 +134,7 @@ double zd_phase_range_margin(const zd_phase_system *self, int index)
 
 static double fixed_force(const zd_phase_system *self, const zd_sliding *it)
 {
-    return -zd_slip_sign(self->state[it->group]) * self->full->group[it->group].friction[1];
+    return -self->full->group[it->group].friction[1];
 }
 
 static double force_of(const zd_phase_system *self, const zd_sliding *it, const double *u)
@@ -84,12 +144,16 @@ static double force_of(const zd_phase_system *self, const zd_sliding *it, const 
 
 static void add_friction(const zd_phase_system *self, int want, const double *v, const zd_terms *out)
 {
-    const double *C = C_in(self, out->scratch);
     for (const zd_sliding *it = self->sliding; it < self->sliding + self->slidings; it++) {
-        const zd_row_of_C row = row_in(self, C, self->full->group[it->group].first);
-        const double force = force_of(self, it, out->inputs);
-        for (int j = 0; want & ZD_FORCE && j < row.count; j++) out->f[zd_column(&row, j)] += row.x[j] * force;
-        if (want & ZD_POWER) *out->power += force * zd_row_times(&row, v);
+        const zd_group *group = self->full->group + it->group;
+        double e[2];
+        find_direction(self, out->scratch, it->group, v, e);
+        for (int i = 0; i < group->rows; i++) {
+            const zd_row_of_C row = row_in(self, C_in(self, out->scratch), group->first + i);
+            const double force = force_of(self, it, out->inputs) * e[i];
+            for (int j = 0; want & ZD_FORCE && j < row.count; j++) out->f[zd_column(&row, j)] += row.x[j] * force;
+            if (want & ZD_POWER) *out->power += force * zd_row_times(&row, v);
+        }
     }
 }
 
@@ -115,9 +179,10 @@ static int evaluate(const void *data, int want, double t, const double *p, const
     const zd_system *full = self->full;
     const zd_terms terms = terms_in(self, out);
     const int is_sliding = self->slidings && (want & (ZD_FORCE | ZD_POWER));
-    const int status = full->evaluate(full->data, (want | (is_sliding ? ZD_C : 0)) & (full->provides | ZD_MOVED), t, p, v, &terms);
+    const int all = want | (!is_sliding ? 0 : self->slides_in_planes ? ZD_C | ZD_PHI_T : ZD_C);
+    const int status = full->evaluate(full->data, all & (full->provides | ZD_MOVED), t, p, v, &terms);
     if (status) return status;
-    if (want & ZD_PHI_T && !(full->provides & ZD_PHI_T)) zd_clear(zd_constraints(full), terms.Phi_t);
+    if (all & ZD_PHI_T && !(full->provides & ZD_PHI_T)) zd_clear(zd_constraints(full), terms.Phi_t);
     if (want & ZD_FORCE && !(full->provides & ZD_FORCE)) zd_clear(full->nv, out->f);
     if (want & ZD_POWER && !(full->provides & ZD_POWER)) *out->power = 0;
     copy_rows(self, want, &terms, out);
@@ -173,11 +238,17 @@ static void name_constraint(const void *names, int row, char *to, int size)
 
 /* ---- measures and loads ---- */
 
-void zd_phase_expand(const zd_phase_system *self, const double *lambda, const double *u, double *all)
+void zd_phase_expand(const zd_phase_system *self, double t, const double *p, const double *v, const double *lambda, const double *u,
+                     double *all)
 {
+    const int status = self->slides_in_planes ? zd_phase_know(self, ZD_C | ZD_PHI_T, t, p, v) : ZD_DONE;
     for (int k = 0; k < zd_constraints(self->full); k++) all[k] = self->row_here[k] < 0 ? 0 : lambda[self->row_here[k]];
-    for (const zd_sliding *it = self->sliding; it < self->sliding + self->slidings; it++)
-        all[self->full->group[it->group].first] = -force_of(self, it, u);
+    for (const zd_sliding *it = self->sliding; it < self->sliding + self->slidings; it++) {
+        const zd_group *group = self->full->group + it->group;
+        double e[2];
+        find_direction(self, self->scratch, it->group, v, e);
+        for (int i = 0; i < group->rows; i++) all[group->first + i] = status ? NAN : -force_of(self, it, u) * e[i];
+    }
 }
 
 static int own_scratch(const zd_system *full) { return full->measures ? full->measures->scratch : 0; }
@@ -188,24 +259,13 @@ static int measure(const void *data, const double *inputs, int index, double t, 
     const zd_phase_system *self = data;
     const zd_system *full = self->full;
     double *all = scratch + own_scratch(full);
-    if (lambda) zd_phase_expand(self, lambda, inputs, all);
-    if (index >= zd_own_measures(full)) {
-        out->value[0] = all[index - zd_own_measures(full)];
+    if (index >= zd_own_measures(full)) {       /* the multiplier of a constraint, of which loads are active ones */
+        const int row = self->row_here[index - zd_own_measures(full)];
+        out->value[0] = row < 0 ? 0 : lambda[row];
         return ZD_DONE;
     }
+    if (lambda) zd_phase_expand(self, t, p, v, lambda, inputs, all);
     return full->measures->evaluate(full->data, inputs, index, t, p, v, vdot, lambda ? all : NULL, out, scratch);
-}
-
-double zd_friction_load(const zd_system *full, const zd_group *group, const double *lambda)
-{
-    double square = 0, largest = 0;
-    if (group->normal) return fmax(0, -full->group[group->normal - 1].sign * lambda[0]);
-    for (int i = 0; i < group->loads; i++) {
-        const double load = group->load_factor[i] * lambda[i];
-        square += load * load;
-        largest = fmax(largest, fabs(load));
-    }
-    return !group->loads ? 1 : group->is_largest ? largest : sqrt(square);
 }
 
 /* Force of sliding friction, from the load that it reads. */
@@ -220,7 +280,7 @@ static int read_load(const void *data, int function, double t, const double *p, 
     while (it->input != function) it++;
     const zd_group *group = self->full->group + it->group;
     const double load = zd_friction_load(self->full, group, r + it->reaction);
-    *u = -zd_slip_sign(self->state[it->group]) * group->friction[1] * load;
+    *u = -group->friction[1] * load;
     return ZD_DONE;
 }
 

@@ -2,15 +2,18 @@
 #pragma once
 
 #include "../point/point.h"
+#include "share.h"
 
 /* State of a group: of a one-sided row open or closed; of two-sided rows released or joined; of friction absent, sticking, or sliding with
- * a slip velocity of this sign. Idle: closed or sticking, redundant with other groups, which bear its force. Behind: within the range of a
- * shape, on its back, and not in contact. */
+ * a slip velocity of this sign, and that of two rows forward in any direction. Idle: closed or sticking, redundant with other groups, which
+ * bear its force. Behind: within the range of a shape, on its back, and not in contact. */
 enum { ZD_OPEN, ZD_CLOSED, ZD_SLIDES_FORWARD, ZD_SLIDES_BACKWARD, ZD_IDLE, ZD_BEHIND };
 
 static const double ZD_TOUCHING = 1e-10;     /* gap of contacts that take part in a change, relative to the characteristic length */
 
-enum { ZD_MAX_LOADS = 3 };      /* number of rows whose multipliers may be a load */
+static const double ZD_SLOW = 1e-6;          /* slip velocity of two rows below which it keeps its direction, in characteristic lengths/s */
+
+enum { ZD_MAX_LOADS = 4 };      /* number of rows whose multipliers may be a load */
 
 /* True of groups whose force has one sign. */
 static inline int zd_is_normal(enum zd_group_kind kind) { return kind == ZD_ONE_SIDED || kind == ZD_ONE_WAY; }
@@ -22,6 +25,13 @@ typedef struct zd_sliding {     /* friction of a group that slides */
     int input;              /* index of its force among those of the reading; -1: its bound is fixed */
     int reaction, reactions;    /* first component of the load, and their number, among what the reading reads */
 } zd_sliding;
+
+/* Terms of the full system's constraints that are those of a state. */
+typedef struct zd_known_terms {
+    int terms;
+    double t, *p, *v;       /* s, (nq,), (nv,) */
+    double *row;            /* (nv,) a row of C, expanded */
+} zd_known_terms;
 
 typedef struct zd_phase_system zd_phase_system;
 
@@ -37,6 +47,11 @@ struct zd_phase_system {
     const zd_layout *layout;    /* layout of the full system; NULL: it declares no structure */
     int size_of_C;          /* entries of C of the full system */
     int slidings;
+    int slides_in_planes;   /* true if friction of two rows slides */
+    int is_shared;          /* true if friction of two rows sticks whose distribution is not determined */
+    double slow;            /* m/s: slip velocity of two rows below which it keeps its direction */
+    double *direction;      /* (groups, 2): of slip of two rows at the start of a step, unit vectors */
+    double *speed;          /* (groups,): that slip, m/s */
     zd_sliding *sliding;    /* (groups,) */
     zd_structure structure;
     zd_measures measures;   /* measures of the full system, then the multiplier of each row of the full system */
@@ -46,8 +61,7 @@ struct zd_phase_system {
     zd_read *read;
     const char **name;      /* names of functions that read reactions */
     double *scratch;        /* memory of zd_phase_evaluate() */
-    int known;              /* terms in it that are those of the state (known_t, known_p, known_v), for margins */
-    double known_t, *known_p, *known_v;     /* s, (nq,), (nv,) */
+    zd_known_terms *known;  /* the terms in it */
     double *lambda;         /* (full m,): multipliers of all rows, from zd_point_multipliers() */
     int *tie;               /* (groups,) of idle friction: the group that sticks in its place; -1: none */
     double *tie_factor;     /* (groups,) by which its bound counts there */
@@ -61,24 +75,32 @@ struct zd_phase_system {
 zd_phase_system *zd_phase_system_create(zd_arena *arena, const zd_system *full, const signed char *state);
 /* all (full m,) <- multipliers of all rows at a state, from those (m,) of the phase: 0 for open rows, and for sliding friction the multiplier
  * that equals its force. `u`: forces that read reactions; NULL without any. */
-void zd_phase_expand(const zd_phase_system *self, const double *lambda, const double *u, double *all);
+void zd_phase_expand(const zd_phase_system *self, double t, const double *p, const double *v, const double *lambda, const double *u,
+                     double *all);
 /* Number of rows of the full system of a point. */
 static inline int zd_point_constraints(const zd_point *point) { return zd_constraints(point->phase ? point->phase->full : point->system); }
 /* Multipliers of all rows at the point, which are known there; valid until the next call. */
 const double *zd_point_multipliers(const zd_point *point);
 /* Evaluates terms of the constraints of the full system at a state, in memory of its own; then a row of its C, its Phi, Phi_t and xi there,
- * and the slip velocity of a group. */
-int zd_phase_evaluate(zd_phase_system *self, int want, double t, const double *p, const double *v);
+ * and the slip velocity (rows,) of a group. */
+int zd_phase_evaluate(const zd_phase_system *self, int want, double t, const double *p, const double *v);
+/* The same for terms that are not known yet. */
+int zd_phase_know(const zd_phase_system *self, int want, double t, const double *p, const double *v);
 zd_row_of_C zd_phase_row(const zd_phase_system *self, int row);
 const double *zd_phase_Phi(const zd_phase_system *self);
 const double *zd_phase_Phi_t(const zd_phase_system *self);
 const double *zd_phase_xi(const zd_phase_system *self);
-double zd_phase_slip(const zd_phase_system *self, int group, const double *v);
+void zd_phase_slip(const zd_phase_system *self, int group, const double *v, double *slip);
+/* Follows the directions of slip to those at a state, if it is a start or they have not reversed. */
+int zd_phase_turn(const zd_phase_system *self, int is_start, double t, const double *p, const double *v);
 /* Gap of a one-sided group; and distance of its coordinate from the ends of its range, negative outside: INFINITY for an unbounded shape. */
 double zd_phase_gap(const zd_phase_system *self, int group);
 double zd_phase_range_margin(const zd_phase_system *self, int group);
 /* Number of measures of the full system. */
 static inline int zd_own_measures(const zd_system *full) { return full->measures ? full->measures->count : 0; }
+/* Pairs of rows of friction that stick, with their forces from the multipliers (full m,) and their bounds; group (ZD_MAX_PAIRS,) <- theirs.
+ * C of the state must be known. */
+void zd_phase_share(const zd_phase_system *self, const double *lambda, zd_share *share, int *group);
 /* Sets the functions of a phase whose rows are known. */
 void zd_phase_pass_functions(zd_phase_system *self);
 /* First row of the multipliers that are the load of friction. */
@@ -96,6 +118,6 @@ double zd_friction_bound(const zd_system *full, int group, int which, const doub
 int zd_phase_margin(zd_phase_system *self, const zd_point *point, int group, double t, const double *p, const double *v,
                     double *margin);
 /* Discards the terms of the last margins, as after a change of inputs. */
-static inline void zd_phase_forget(zd_phase_system *self) { self->known = 0; }
+static inline void zd_phase_forget(const zd_phase_system *self) { self->known->terms = 0; }
 /* True if the margin depends on accelerations and multipliers. */
 int zd_margin_reads_accelerations(const zd_phase_system *self, int group);

@@ -37,7 +37,10 @@ static int make_impact(zd_contacts *it)
     for (int k = 0; k < it->normals; k++) is_any |= it->w[k] < -STILL * zd_rest_speed(it, k);
     if (!is_any) return ZD_DONE;
     zd_candidate given[ZD_MAX_CANDIDATES];
+    double direction[ZD_MAX_CANDIDATES];
     memcpy(given, it->row, sizeof given);
+    memcpy(direction, it->direction, sizeof direction);
+    memset(it->direction, 0, sizeof it->direction);
     for (int k = 0; k < rows; k++) {
         const int is_slow = k >= it->normals || fabs(it->w[k]) <= zd_rest_speed(it, k);
         const double e = is_slow ? 0 : zd_candidate_group(it, k)->restitution;
@@ -47,6 +50,7 @@ static int make_impact(zd_contacts *it)
     }
     int status = zd_contacts_solve(it, rows, "the impact");
     memcpy(it->row, given, sizeof given);
+    memcpy(it->direction, direction, sizeof direction);
     if (status) return status;
     for (int k = rows; k < it->count; k++) it->z[k] = 0;
     double before[ZD_MAX_CANDIDATES];
@@ -71,8 +75,12 @@ static int make_impact(zd_contacts *it)
 static void classify_friction(zd_contacts *it)
 {
     for (int k = it->normals; k < it->count; k++) {
-        const int is_still = fabs(it->w[k]) <= STILL * zd_rest_speed(it, k);
-        it->row[k].slides = is_still ? it->ends[k] : it->w[k] > 0 ? ZD_SLIDES_FORWARD : ZD_SLIDES_BACKWARD;
+        const int i = k - (it->row[k].pair == 2), is_pair = it->row[k].pair != 0;      /* its first row */
+        const double speed = is_pair ? hypot(it->w[i], it->w[i + 1]) : fabs(it->w[k]);
+        const int is_still = speed <= fmax(STILL * zd_rest_speed(it, k), it->missed[k]);
+        it->row[k].slides = is_still ? it->ends[k] : is_pair || it->w[k] > 0 ? ZD_SLIDES_FORWARD : ZD_SLIDES_BACKWARD;
+        it->row[k].seeks = (signed char)(is_pair && is_still && it->ends[k] != ZD_OPEN);
+        if (is_pair && !is_still) it->direction[k] = it->w[k] / speed;
     }
 }
 
@@ -92,7 +100,7 @@ static int find_accelerations(zd_contacts *it)
     if (!status) status = zd_phase_evaluate(it->phases->present->of, ZD_XI, it->phases->at.t, it->phases->at.p, it->phases->at.v);
     const double *xi = zd_phase_xi(it->phases->present->of);
     for (int k = 0; k < it->count && !status; k++)
-        it->b[k] = zd_dot(nv, it->g + (size_t)k * nv, motion->point->vdot) - it->sign[k] * xi[zd_candidate_group(it, k)->first];
+        it->b[k] = zd_dot(nv, it->g + (size_t)k * nv, motion->point->vdot) - it->sign[k] * xi[zd_candidate_row(it, k)];
     return status;
 }
 
@@ -107,7 +115,8 @@ static int find_correction(const zd_contacts *it, const double *w, double *z)
         x[a] = -w[active[a]];
         for (int c = 0; c < count; c++) A[a * count + c] = it->W[active[a] * it->count + active[c]];
     }
-    if (!zd_problem_equations(count, A, x)) return ZD_SINGULAR;
+    const int depend_on_others = it->shared || it->least;       /* then all are right within rounding */
+    if (!zd_problem_equations(count, A, x) && !depend_on_others) return ZD_SINGULAR;
     memset(z, 0, ZD_MAX_CANDIDATES * sizeof *z);
     for (int a = 0; a < count; a++) z[active[a]] = x[a];
     return ZD_DONE;
@@ -182,6 +191,8 @@ static int find_next(zd_contacts *it)
     for (int k = 0; k < it->count && !status; k++) {
         phase->of->tie[it->group[k]] = it->tie[k] < 0 ? -1 : it->group[it->tie[k]];
         phase->of->tie_factor[it->group[k]] = it->factor[k];
+        if (it->row[k].pair) phase->of->direction[2 * it->group[k] + it->component[k]] = it->direction[k];
+        phase->of->is_shared = it->shared > 0;
     }
     return status;
 }

@@ -14,15 +14,53 @@ static int refuse_start(zd_contacts *it, const zd_group *group, double gap)
     return ZD_BAD_START;
 }
 
+/* True if the margin of a group has just become zero. */
+static int has_ended(const zd_contacts *it, int g)
+{
+    const zd_watch *watch = &it->run->watch;
+    return watch->acts[watch->events->count - it->phases->full->groups + g];
+}
+
+/* True if a slip velocity of two rows has just reversed its direction, as it ends: those of other contacts then end as well. */
+static int has_reversed(const zd_contacts *it)
+{
+    for (int g = 0; g < it->phases->full->groups; g++)
+        if (it->phases->full->group[g].rows == 2 && zd_slides(it->phases->state[g]) && has_ended(it, g)) return 1;
+    return 0;
+}
+
 /* State that a group must enter if its margin has just become zero: a closed row opens, sticking friction slides against its force. */
 static signed char find_end(const zd_contacts *it, int g)
 {
-    const zd_watch *watch = &it->run->watch;
     const zd_phases *phases = it->phases;
-    const int event = watch->events->count - phases->full->groups + g;
-    if (!watch->acts[event] || phases->state[g] != ZD_CLOSED) return ZD_OPEN;
+    if (!has_ended(it, g) || phases->state[g] != ZD_CLOSED) return ZD_OPEN;
     if (zd_is_normal(phases->full->group[g].kind)) return ZD_SLIDES_FORWARD;
     return zd_point_multipliers(it->run->motion.point)[phases->full->group[g].first] > 0 ? ZD_SLIDES_FORWARD : ZD_SLIDES_BACKWARD;
+}
+
+static const double MISSED = 0.01;          /* share of the slip at the start of a step by which its end may miss zero */
+static const double LIMITS = 1e-3;          /* share in what limits a common load, beyond which a contact is at its bound */
+
+/* The same for friction of two rows, with the direction of its slip. Of contacts that share a load, those at their bounds slide. */
+static signed char find_pair_end(const zd_contacts *it, int g, double *direction)
+{
+    const zd_phases *phases = it->phases;
+    const zd_phase_system *of = phases->present->of;
+    const double *lambda = zd_point_multipliers(it->run->motion.point), *f = lambda + phases->full->group[g].first;
+    int is_any = has_ended(it, g), group[ZD_MAX_PAIRS];
+    zd_share share;
+    if (phases->state[g] != ZD_CLOSED) return ZD_OPEN;
+    if (of->is_shared) {
+        zd_phase_share(of, lambda, &share, group);
+        for (int i = 0; i < share.pairs; i++) {
+            is_any |= has_ended(it, group[i]);
+            if (group[i] == g) f = share.weight[i] > LIMITS ? share.f + 2 * i : NULL;
+        }
+    }
+    if (!is_any || !f) return ZD_OPEN;
+    const double size = hypot(f[0], f[1]);
+    for (int i = 0; i < 2; i++) direction[i] = size > 0 ? f[i] / size : 0;
+    return ZD_SLIDES_FORWARD;
 }
 
 /* True if the coordinate along a bounded shape is out of its range, or at an end of it and moves outward. */
@@ -56,7 +94,8 @@ static int find_normal_state(const zd_contacts *it, int g, int is_start)
     return ZD_BEHIND;
 }
 
-static int add_candidate(zd_contacts *it, int g, int normal, double gap)
+/* Adds a row of a group, its friction of two rows as a pair. */
+static int add_candidate(zd_contacts *it, int g, int component, int normal, double gap)
 {
     const zd_group *group = it->phases->full->group + g;
     if (it->count == ZD_MAX_CANDIDATES) {
@@ -66,8 +105,14 @@ static int add_candidate(zd_contacts *it, int g, int normal, double gap)
     it->group[it->count] = g;
     it->gap[it->count] = gap;
     it->sign[it->count] = normal < 0 ? group->sign : 1;
-    it->row[it->count] = (zd_candidate){normal, {group->friction[0], group->friction[1]}, ZD_OPEN};
-    it->ends[it->count] = find_end(it, g);
+    it->component[it->count] = component;
+    it->row[it->count] = (zd_candidate){normal, {group->friction[0], group->friction[1]}, ZD_OPEN, .pair = 0};
+    if (normal >= 0 && group->rows == 2) it->row[it->count].pair = (signed char)(1 + component);
+    double direction[2] = {0, 0};
+    it->ends[it->count] = it->row[it->count].pair ? find_pair_end(it, g, direction) : find_end(it, g);
+    it->direction[it->count] = direction[component];
+    it->missed[it->count] = it->row[it->count].pair && zd_slides(it->phases->state[g]) && has_reversed(it)
+                          ? MISSED * it->phases->present->of->speed[g] : 0;
     it->count++;
     return ZD_DONE;
 }
@@ -83,7 +128,7 @@ static int find_normals(zd_contacts *it, int is_start)
         const int state = find_normal_state(it, g, is_start);
         if (state < 0) return refuse_start(it, full->group + g, gap);
         it->next[g] = (signed char)state;
-        if (state == ZD_CLOSED) status = add_candidate(it, g, -1, gap);
+        if (state == ZD_CLOSED) status = add_candidate(it, g, 0, -1, gap);
     }
     it->normals = it->count;
     for (int k = 0; k < it->normals; k++) it->next[it->group[k]] = ZD_OPEN;
@@ -101,7 +146,7 @@ int zd_contacts_find(zd_contacts *it, int is_start)
             if (group->kind != ZD_FRICTION || (group->normal == 0) != is_own) continue;
             while (normal > 0 && it->group[normal - 1] != group->normal - 1) normal--;
             it->next[g] = ZD_OPEN;
-            if (normal || is_own) status = add_candidate(it, g, normal, 0);
+            for (int i = 0; (normal || is_own) && i < group->rows && !status; i++) status = add_candidate(it, g, i, normal, 0);
         }
     return status;
 }
@@ -140,7 +185,7 @@ int zd_contacts_find_rows(zd_contacts *it)
     const int nv = it->phases->full->nv;
     const int status = zd_phase_evaluate(of, ZD_C | ZD_PHI_T, it->phases->at.t, it->phases->at.p, it->phases->at.v);
     for (int k = 0; k < it->count && !status; k++) {
-        const zd_row_of_C row = zd_phase_row(of, zd_candidate_group(it, k)->first);
+        const zd_row_of_C row = zd_phase_row(of, zd_candidate_row(it, k));
         double *g = it->g + (size_t)k * nv;
         zd_row_expand(&row, nv, g);
         for (int i = 0; i < nv; i++) g[i] *= it->sign[k];
@@ -169,7 +214,7 @@ void zd_contacts_find_velocities(zd_contacts *it)
     const double *Phi_t = zd_phase_Phi_t(it->phases->present->of);
     for (int k = 0; k < it->count; k++) {
         const zd_group *group = zd_candidate_group(it, k);
-        const double rate = Phi_t[group->first] - (group->kind == ZD_ONE_WAY ? group->value : 0);
+        const double rate = Phi_t[zd_candidate_row(it, k)] - (group->kind == ZD_ONE_WAY ? group->value : 0);
         it->w[k] = zd_dot(nv, it->g + (size_t)k * nv, it->phases->at.v) + it->sign[k] * rate;
     }
 }
@@ -183,11 +228,20 @@ void zd_contacts_apply(zd_contacts *it, const double *z)
     }
 }
 
+/* True if contacts have slip in two directions. */
+static int are_in_space(const zd_system *full)
+{
+    for (int g = 0; g < full->groups; g++)
+        if (full->group[g].normal && full->group[g].rows == 2) return 1;
+    return 0;
+}
+
 int zd_contacts_solve(zd_contacts *it, int rows, const char *what)
 {
     int opens = 0;
     for (int k = 0; k < rows; k++) opens |= it->ends[k] != ZD_OPEN;
-    zd_contact_problem problem = {rows, it->row, it->W, it->b, opens, it->state, it->tie, it->factor, it->z, it->after, it->scratch};
+    zd_contact_problem problem = {rows, it->row, it->W, it->b, are_in_space(it->phases->full), opens, it->state, it->tie, it->factor,
+                                  it->z, it->after, it->direction, 0, 0, it->scratch};
     double W[ZD_MAX_CANDIDATES * ZD_MAX_CANDIDATES];
     if (rows < it->count) {
         for (int j = 0; j < rows; j++)
@@ -195,8 +249,11 @@ int zd_contacts_solve(zd_contacts *it, int rows, const char *what)
         problem.W = W;
     }
     const int found = zd_problem_solve(&problem);
+    it->shared = problem.shared, it->least = problem.least;
     if (found == 1) return ZD_DONE;
-    const char *how = found < 0 ? "too many contacts change at one instant: they must be fewer"
+    const char *how = found == -2 ? "the normal forces that bound friction are not determined: contacts of one body with friction must be "
+                                    "at most three on a plane"
+                    : found < 0 ? "too many contacts change at one instant: they must be fewer"
                     : !found ? rows > it->normals ? "no solution exists, as in Painleve's paradox: friction must be smaller"
                                                   : "no solution exists: drives and joints must allow the bodies to stop"
                     : "several solutions exist, as in Painleve's paradox: friction must be smaller";

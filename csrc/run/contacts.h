@@ -9,11 +9,15 @@ typedef struct zd_contacts {
     zd_phases *phases;
     int count, normals;     /* candidates: normal rows, then friction */
     int group[ZD_MAX_CANDIDATES];
+    int component[ZD_MAX_CANDIDATES];   /* row of the group */
     double sign[ZD_MAX_CANDIDATES];
     zd_candidate row[ZD_MAX_CANDIDATES];
     signed char state[ZD_MAX_CANDIDATES];
     int tie[ZD_MAX_CANDIDATES];
     double factor[ZD_MAX_CANDIDATES];
+    double direction[ZD_MAX_CANDIDATES];    /* slip of friction of two rows, a unit vector */
+    double missed[ZD_MAX_CANDIDATES];       /* m/s: slip that is rounding besides, where its direction has just been reversed */
+    int shared, least;      /* numbers of forces that are not determined, of friction of two rows and normal ones */
     double gap[ZD_MAX_CANDIDATES];
     double w[ZD_MAX_CANDIDATES], b[ZD_MAX_CANDIDATES], z[ZD_MAX_CANDIDATES], after[ZD_MAX_CANDIDATES];
     double omitted[ZD_MAX_CANDIDATES];      /* m/s: speed that a bounce would have after an impact slower than the rest speed */
@@ -39,6 +43,11 @@ void zd_contacts_find_velocities(zd_contacts *self);
 void zd_contacts_apply(zd_contacts *self, const double *z);
 /* Solves the problem of the first rows with b; `what` is its name in messages. */
 int zd_contacts_solve(zd_contacts *self, int rows, const char *what);
+/* Row of the constraints of the full system that a candidate is. */
+static inline int zd_candidate_row(const zd_contacts *self, int k)
+{
+    return self->phases->full->group[self->group[k]].first + self->component[k];
+}
 static inline const zd_group *zd_candidate_group(const zd_contacts *self, int k) { return self->phases->full->group + self->group[k]; }
 /* Unit of the gap of a group: the characteristic length, or that of the group, as 1 rad */
 static inline double zd_group_scale(const zd_phases *phases, const zd_group *group)

@@ -245,8 +245,7 @@ void zd_phase_use(zd_run *run, zd_phase *phase)
 int zd_phases_suit(const zd_system *full, int integrator)
 {
     zd_system sticking = *full;
-    for (int g = 0; g < full->groups; g++)
-        if (full->group[g].kind == ZD_FRICTION) sticking.mn = 1;
+    for (int g = 0; g < full->groups; g++) sticking.mn |= full->group[g].kind == ZD_FRICTION;
     return !full->groups || zd_suits(&sticking, integrator);
 }
 
@@ -282,7 +281,8 @@ static int begin_margins(zd_run *run)
 {
     zd_phases *self = run->phases;
     zd_phase_system *of = self->present->of;
-    int status = zd_motion_accelerate(&run->motion);
+    int status = zd_phase_turn(of, 1, self->at.t, self->at.p, self->at.v);
+    if (!status) status = zd_motion_accelerate(&run->motion);
     if (!status) zd_rank_find_multipliers(run->motion.point);
     memset(of->bias, 0, self->full->groups * sizeof *of->bias);
     for (int g = 0; !status && g < self->full->groups; g++) {
@@ -346,5 +346,5 @@ int zd_phases_check(zd_run *run)
                  "set max_step or a shorter step", group->name, -gap);
         return ZD_BRANCH;
     }
-    return ZD_DONE;
+    return zd_phase_turn(self->present->of, 0, run->stepper.t, run->motion.point->p, run->motion.point->v);
 }

@@ -32,7 +32,7 @@
 #include "terms.h"
 
 /* Changes with any declaration here and in these headers that compiled code depends on. */
-enum { ZD_INTERFACE_VERSION = 11 };
+enum { ZD_INTERFACE_VERSION = 12 };
 
 /* ---- measures, inputs, groups ---- */
 
@@ -119,7 +119,8 @@ typedef struct zd_reading {
 enum zd_group_kind {
     ZD_TWO_SIDED,           /* rows of a joint that is released and joined, all holonomic or all nonholonomic */
     ZD_ONE_SIDED,           /* one holonomic row: g >= 0, N >= 0, and one of them zero; within a range, where it has one */
-    ZD_FRICTION,            /* one row, a slip velocity C v + Phi_t: zero, or a force against it. Its Phi is not read. */
+    ZD_FRICTION,            /* one row, or two along perpendicular directions, a slip velocity C v + Phi_t: zero, or a force against it.
+                             * Its Phi is not read. */
     ZD_ONE_WAY              /* one row: as one-sided, with the rate C v + Phi_t in the place of Phi, which is not read; no restitution */
 };
 
@@ -133,9 +134,9 @@ typedef struct zd_group {
     int is_active;          /* ZD_TWO_SIDED: 1 if it is joined at the start */
     int normal;             /* ZD_FRICTION: 1 + index of the ZD_ONE_SIDED group whose force bounds the friction; 0: another bound */
     int load, loads;        /* ZD_FRICTION without a normal: first of the rows whose multipliers are the load that bounds it, and their
-                             * number, at most 3; 0: a fixed bound */
-    double load_factor[3];  /* factors of these multipliers */
-    int is_largest;         /* 1: the load is the largest of their magnitudes; 0: their norm */
+                             * number, at most 4; 0: a fixed bound */
+    double load_factor[4];  /* factors of these multipliers */
+    int at_ends;            /* 0: the load is their norm; 1: with half of them F, the others M, it is |F + M| + |F - M|, of a guide's ends */
     int range;              /* ZD_ONE_SIDED: 1 + holonomic row, of a group that is not active, whose Phi is the coordinate along a bounded
                              * shape; 0: the shape is unbounded */
     double lower, upper;    /* limits of this coordinate: out of them, and behind the shape, a body is not in contact */

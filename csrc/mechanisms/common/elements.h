@@ -116,8 +116,8 @@ typedef struct zd_element_group {
     int component, rows;        /* first row of the joint, in the order of its kind, and their number */
     int kind, sign, is_active, normal;
     int load_joint, load_component, loads;      /* joint of the rows of the load, the first of them, and their number */
-    double load_factor[3];
-    int is_largest;
+    double load_factor[4];
+    int at_ends;
     double scale, value, restitution;
     double friction[2];
     int range, opposite;        /* range: 1 + relation of the coordinate along a bounded shape */

@@ -71,7 +71,7 @@ void zd_elements_set_groups(const zd_elements *elements, const zd_element_parts 
         zd_group group = {.name = of->name, .first = find_row(from, of->owner, of->index, of->component), .rows = of->rows,
                           .kind = (enum zd_group_kind)of->kind, .sign = of->sign, .scale = of->scale,
                           .value = of->value, .is_active = of->is_active,
-                          .normal = of->normal, .loads = of->loads, .is_largest = of->is_largest, .restitution = of->restitution,
+                          .normal = of->normal, .loads = of->loads, .at_ends = of->at_ends, .restitution = of->restitution,
                           .friction = {of->friction[0], of->friction[1]}};
         group.opposite = of->opposite, group.lower = of->lower, group.upper = of->upper;
         if (of->range) group.range = 1 + find_row(from, ZD_OF_RELATION, of->range - 1, 0);

@@ -101,3 +101,8 @@ void zd_bodies_gather(int bodies, const zd_space_planned_body *body, const zd_sp
         zd_body_act(body + i, pose + i, 1, wrench[i], own);
     }
 }
+
+zd_vector3 zd_space_point_of(const zd_space_pose *pose, const double *point)
+{
+    return zd_plus3(pose->at, zd_rotated3(&pose->turned, zd_vector3_of(point)));
+}

@@ -149,6 +149,27 @@ static const zd_space_joint_kind joints[] = {
         },
         .rolls = 1,
     },
+    /* Bearing: a revolute joint of which the first two multipliers are the components of its radial force. */
+    {
+        .card = {.name = "bearing", .summary = "Turns one body about an axis of the other, with its force along and across the axis.",
+                 .equations = "(3), (5)"},
+        .rows = 5,
+        .row = {POINT_ON_AXIS, POINT_IN_PLANE(A), PARALLEL_AXES},
+        .coordinate = {ANGLE_ABOUT_AXIS},
+        .axes = 1,
+    },
+    /* Ball on a sphere of the first body: the distance of their centres, and the velocity around it. The length is its radius, negative
+     * inside. */
+    {
+        .card = {.name = "sphere", .summary = "Rolls a ball on a sphere of the first body without slip.", .equations = "(3), (5)"},
+        .rows = 3,
+        .row = {
+            {.pick = {.quantity = ZD_SPACE_DISTANCE, .zero = ZD_SPACE_ZERO_ALONG}},
+            {.pick = {.quantity = ZD_SPACE_ORBIT, .of_first = N}, .nonholonomic = 1},
+            {.pick = {.quantity = ZD_SPACE_ORBIT_ACROSS, .of_first = N}, .nonholonomic = 1},
+        },
+        .rolls = 1, .takes_length = 1,
+    },
     /* Knife edge, as a skate or a blade: a point of the second body has no velocity along the normal of its frame, which is across the
      * blade. */
     {

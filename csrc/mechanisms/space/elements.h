@@ -28,6 +28,10 @@ enum zd_space_quantity_kind {
     ZD_SPACE_TURN,          /* rad/s: a . (angular velocity of the second minus that of the first) */
     ZD_SPACE_ROTATION,      /* rad: a . phi, where phi is the rotation vector of the second body against the first, of length below pi */
     ZD_SPACE_SHEAR,         /* m/s: a . (velocity at Q of the second body minus that of the first), where a is fixed in global axes */
+    /* m/s: t . (velocity at C of the second body minus that of the first), where C is the point of a ball about Q, of the radius
+     * shape[0][0], that is nearest to P or, with a negative one, farthest from it; a x u is along t, or o x u, and u from P to Q */
+    ZD_SPACE_ORBIT,
+    ZD_SPACE_ORBIT_ACROSS,  /* m/s: the same along u x t */
     ZD_SPACE_QUANTITIES
 };
 

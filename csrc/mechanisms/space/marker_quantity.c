@@ -1,41 +1,15 @@
 /* Primitive marker quantities: value, wrenches of a unit force on both bodies, and bias of each.
  *
- * All are made of points and directions that move with bodies. With omega and the acceleration of mass centres in global axes,
- * a direction a has the rate omega x a and, where no velocity changes, the second rate omega x (omega x a); so has the way from the
- * mass centre to a point. The derivative of omega is there what the turned derivative of its own components is, as omega x omega vanishes.
+ * All are made of points and directions that move with bodies; those of contacts are in contact_quantity.c. With omega and the acceleration
+ * of mass centres in global axes, a direction a has the rate omega x a and, where no velocity changes, the second rate omega x (omega x a);
+ * so has the way from the mass centre to a point. The derivative of omega is there what the turned derivative of its own components is, as
+ * omega x omega vanishes.
  */
 #include "bodies.h"
-
-typedef struct moving {
-    zd_vector3 value, rate, second;     /* the second rate where no velocity changes */
-} moving;
-
-static zd_vector3 direction_of(const zd_space_pose *pose, const double *direction)
-{
-    return zd_rotated3(&pose->turned, zd_vector3_of(direction));
-}
-
-zd_vector3 zd_space_point_of(const zd_space_pose *pose, const double *point) { return zd_plus3(pose->at, direction_of(pose, point)); }
-
-static moving turning(const zd_space_pose *pose, const zd_space_twist *twist, const double *direction)
-{
-    const zd_vector3 value = direction_of(pose, direction), rate = zd_cross3(twist->spin, value);
-    return (moving){value, rate, zd_cross3(twist->spin, rate)};
-}
-
-static moving point_moving(const zd_space_pose *pose, const zd_space_twist *twist, const double *point)
-{
-    const moving arm = turning(pose, twist, point);
-    return (moving){zd_plus3(pose->at, arm.value), zd_plus3(twist->speed, arm.rate), arm.second};
-}
-
-static moving difference(moving a, moving b)
-{
-    return (moving){zd_minus3(a.value, b.value), zd_minus3(a.rate, b.rate), zd_minus3(a.second, b.second)};
-}
+#include "contact_quantity.h"
 
 /* Part of the second derivative of a . b without angular accelerations. */
-static double bias_of_product(moving a, moving b)
+static double bias_of_product(zd_moving a, zd_moving b)
 {
     return zd_inner3(a.second, b.value) + 2 * zd_inner3(a.rate, b.rate) + zd_inner3(a.value, b.second);
 }
@@ -45,8 +19,8 @@ static double bias_of_product(moving a, moving b)
 /* A unit force along u on Q, and its opposite on P. */
 static void pull(const zd_space_quantity *quantity, const zd_space_pose *pose, zd_vector3 u, zd_space_reading *to)
 {
-    to->second = (zd_space_wrench){u, zd_cross3(direction_of(pose + quantity->second, quantity->point2), u)};
-    to->first = (zd_space_wrench){zd_times3(-1, u), zd_cross3(u, direction_of(pose + quantity->first, quantity->point1))};
+    to->second = (zd_space_wrench){u, zd_cross3(zd_direction_of(pose + quantity->second, quantity->point2), u)};
+    to->first = (zd_space_wrench){zd_times3(-1, u), zd_cross3(u, zd_direction_of(pose + quantity->first, quantity->point1))};
 }
 
 /* A torque on the second body, and its opposite on the first. */
@@ -79,46 +53,10 @@ static void read_distance(const zd_space_quantity *quantity, const zd_space_pose
     pull(quantity, pose, zd_times3(to->value > 0 ? 1 / to->value : 0, apart), to);
 }
 
-/* S x in global axes, with S the shape of the ellipsoid */
-static zd_vector3 shaped(const zd_space_quantity *quantity, const zd_space_pose *pose, zd_vector3 x)
-{
-    const zd_rotation *turned = &pose[quantity->second].turned;
-    const zd_vector3 own = zd_rotated_back3(turned, x);
-    const double S[] = {zd_inner3(zd_vector3_of(quantity->shape[0]), own), zd_inner3(zd_vector3_of(quantity->shape[1]), own),
-                        zd_inner3(zd_vector3_of(quantity->shape[2]), own)};
-    return zd_rotated3(turned, zd_vector3_of(S));
-}
-
-/* From Q to C: -S o over its reach, the root of o . S o. */
-static zd_vector3 way_to_contact(const zd_space_quantity *quantity, const zd_space_pose *pose, zd_vector3 o, double *reach)
-{
-    const zd_vector3 So = shaped(quantity, pose, o);
-    *reach = sqrt(zd_inner3(o, So));
-    return zd_times3(-1 / *reach, So);
-}
-
-zd_vector3 zd_space_contact(const zd_space_quantity *quantity, const zd_space_pose *pose)
-{
-    double reach;
-    const zd_vector3 o = direction_of(pose + quantity->first, quantity->o);
-    return zd_plus3(zd_space_point_of(pose + quantity->second, quantity->point2), way_to_contact(quantity, pose, o, &reach));
-}
-
-/* C is where the ellipsoid is farthest, so that its way there does not count: what pulls at C acts on both bodies there. */
-static void read_contact(const zd_space_quantity *quantity, const zd_space_pose *pose, zd_vector3 a, zd_vector3 apart, zd_space_reading *to)
-{
-    double reach;
-    const zd_vector3 o = direction_of(pose + quantity->first, quantity->o), way = way_to_contact(quantity, pose, o, &reach);
-    const int is_slip = quantity->kind == ZD_SPACE_SLIP;
-    read_along(quantity, pose, is_slip ? a : o, zd_plus3(apart, way), to);
-    to->second.torque = zd_plus3(to->second.torque, zd_cross3(way, to->second.force));
-    if (is_slip) to->value = 0;
-}
-
 /* The angle of (a . b, o . b): see enum zd_space_quantity_kind. */
 static void read_angle(const zd_space_quantity *quantity, const zd_space_pose *pose, zd_vector3 a, int has_value, zd_space_reading *to)
 {
-    const zd_vector3 o = direction_of(pose + quantity->first, quantity->o), b = direction_of(pose + quantity->second, quantity->b);
+    const zd_vector3 o = zd_direction_of(pose + quantity->first, quantity->o), b = zd_direction_of(pose + quantity->second, quantity->b);
     const double x = zd_inner3(a, b), y = zd_inner3(o, b);
     if (has_value) to->value = atan2(y, x);
     twist_both(zd_times3(1 / (x * x + y * y), zd_cross3(b, zd_minus3(zd_times3(x, o), zd_times3(y, a)))), to);
@@ -133,7 +71,7 @@ static zd_vector3 rotation_vector(const zd_space_quantity *quantity, const zd_sp
     zd_vector3 u = {0, 0, 0};
     double cosine = -0.5;
     for (int i = 0; i < 3; i++) {
-        const zd_vector3 to = direction_of(pose + quantity->second, quantity->shape[i]);
+        const zd_vector3 to = zd_direction_of(pose + quantity->second, quantity->shape[i]);
         u = zd_plus3(u, zd_times3(0.5, zd_cross3(axis[i], to)));
         cosine += 0.5 * zd_inner3(axis[i], to);
     }
@@ -173,7 +111,7 @@ static void read_rotation(const zd_space_quantity *quantity, const zd_space_pose
 
 static void read_cosine(const zd_space_quantity *quantity, const zd_space_pose *pose, zd_vector3 a, zd_space_reading *to)
 {
-    const zd_vector3 b = direction_of(pose + quantity->second, quantity->b);
+    const zd_vector3 b = zd_direction_of(pose + quantity->second, quantity->b);
     to->value = zd_inner3(a, b);
     twist_both(zd_cross3(b, a), to);
 }
@@ -193,18 +131,18 @@ static zd_space_reading read(const zd_space_quantity *quantity, const zd_space_p
         to.value -= quantity->zero;
         return to;
     }
-    const zd_vector3 a = direction_of(pose + quantity->first, quantity->a);
+    const zd_vector3 a = zd_direction_of(pose + quantity->first, quantity->a);
     switch (quantity->kind) {
     case ZD_SPACE_ALONG: read_along(quantity, pose, a, apart_of(quantity, pose), &to); break;
     case ZD_SPACE_COSINE: read_cosine(quantity, pose, a, &to); break;
     case ZD_SPACE_ANGLE: read_angle(quantity, pose, a, has_value, &to); break;
     case ZD_SPACE_ROTATION: read_rotation(quantity, pose, a, &to); break;
     case ZD_SPACE_DISTANCE: read_distance(quantity, pose, apart_of(quantity, pose), &to); break;
-    case ZD_SPACE_GLIDE: to.second = (zd_space_wrench){a, zd_cross3(direction_of(pose + quantity->second, quantity->point2), a)}; break;
+    case ZD_SPACE_GLIDE: to.second = (zd_space_wrench){a, zd_cross3(zd_direction_of(pose + quantity->second, quantity->point2), a)}; break;
     case ZD_SPACE_SPIN: to.second.torque = a; break;
     case ZD_SPACE_TURN: twist_both(a, &to); break;
     case ZD_SPACE_SHEAR: read_along(quantity, pose, zd_vector3_of(quantity->a), apart_of(quantity, pose), &to), to.value = 0; break;
-    default: read_contact(quantity, pose, a, apart_of(quantity, pose), &to);
+    default: zd_read_contact(quantity, pose, apart_of(quantity, pose), &to);
     }
     to.value -= quantity->zero;
     return to;
@@ -244,18 +182,18 @@ static double work(zd_space_wrench what, const zd_space_twist *twist)
     return zd_inner3(what.force, twist->speed) + zd_inner3(what.torque, twist->spin);
 }
 
-static double bias_of_place(const zd_space_quantity *quantity, moving apart)
+static double bias_of_place(const zd_space_quantity *quantity, zd_moving apart)
 {
     return quantity->kind == ZD_SPACE_X ? apart.second.x : quantity->kind == ZD_SPACE_Y ? apart.second.y : apart.second.z;
 }
 
-static double bias_of_distance(moving apart, double rate)
+static double bias_of_distance(zd_moving apart, double rate)
 {
     const double length = sqrt(zd_inner3(apart.value, apart.value));
     return length > 0 ? (zd_inner3(apart.rate, apart.rate) + zd_inner3(apart.value, apart.second) - rate * rate) / length : 0;
 }
 
-static double bias_of_angle(moving a, moving o, moving b, double rate)
+static double bias_of_angle(zd_moving a, zd_moving o, zd_moving b, double rate)
 {
     const double x = zd_inner3(a.value, b.value), y = zd_inner3(o.value, b.value), size = x * x + y * y;
     const double xdot = zd_inner3(a.rate, b.value) + zd_inner3(a.value, b.rate),
@@ -267,7 +205,7 @@ static double bias_of_angle(moving a, moving o, moving b, double rate)
 static double bias_of_rotation(const zd_space_quantity *quantity, const zd_space_pose *pose, const zd_space_twist *twist)
 {
     double slope;
-    const zd_vector3 a = direction_of(pose + quantity->first, quantity->a), phi = rotation_vector(quantity, pose);
+    const zd_vector3 a = zd_direction_of(pose + quantity->first, quantity->a), phi = rotation_vector(quantity, pose);
     const double c = rotation_factor(zd_inner3(phi, phi), &slope);
     const zd_vector3 spin = twist[quantity->first].spin, w = zd_minus3(twist[quantity->second].spin, spin);
     const zd_vector3 across = zd_cross3(phi, a), twice = zd_cross3(phi, across), phi_w = zd_cross3(phi, w);
@@ -278,47 +216,23 @@ static double bias_of_rotation(const zd_space_quantity *quantity, const zd_space
            2 * slope * zd_inner3(phi, rate) * zd_inner3(w, twice);
 }
 
-/* The rate of the way from Q to C: o turns with the first body, and the ellipsoid with the second. */
-static zd_vector3 rate_of_way(const zd_space_quantity *quantity, const zd_space_pose *pose, moving o, zd_vector3 spin)
-{
-    double reach;
-    const zd_vector3 way = way_to_contact(quantity, pose, o.value, &reach);
-    const zd_vector3 relative = zd_minus3(o.rate, zd_cross3(spin, o.value));        /* rate of o as seen from the second body */
-    const zd_vector3 change = zd_minus3(zd_times3(zd_inner3(way, relative), way), shaped(quantity, pose, relative));
-    return zd_plus3(zd_cross3(spin, way), zd_times3(1 / reach, change));
-}
-
-/* Derivative of u . w without accelerations; u is a direction of the first body, and w the velocity at C of the second body relative to
- * the first. */
-static double bias_of_contact(const zd_space_quantity *quantity, const zd_space_pose *pose, const zd_space_twist *twist, moving u, moving o,
-                              moving apart)
-{
-    double reach;
-    const zd_vector3 first = twist[quantity->first].spin, second = twist[quantity->second].spin;
-    const zd_vector3 way = way_to_contact(quantity, pose, o.value, &reach), change = rate_of_way(quantity, pose, o, second);
-    const zd_vector3 to_C = zd_plus3(apart.value, way), change_of_C = zd_plus3(apart.rate, change);
-    const zd_vector3 w = zd_minus3(zd_plus3(apart.rate, zd_cross3(second, way)), zd_cross3(first, to_C));
-    const zd_vector3 wdot = zd_minus3(zd_plus3(apart.second, zd_cross3(second, change)), zd_cross3(first, change_of_C));
-    return zd_inner3(u.rate, w) + zd_inner3(u.value, wdot);
-}
-
 double zd_space_quantity_rate(const zd_space_quantity *quantity, const zd_space_pose *pose, const zd_space_twist *twist)
 {
     const zd_space_reading reading = zd_space_quantity_wrenches(quantity, pose);
     return work(reading.first, twist + quantity->first) + work(reading.second, twist + quantity->second);
 }
 
-static double bias_of_glide(moving a, moving Q) { return zd_inner3(a.rate, Q.rate) + zd_inner3(a.value, Q.second); }
+static double bias_of_glide(zd_moving a, zd_moving Q) { return zd_inner3(a.rate, Q.rate) + zd_inner3(a.value, Q.second); }
 
 /* Bias where the bodies' accelerations are zero. */
 static double own_bias(const zd_space_quantity *quantity, const zd_space_pose *pose, const zd_space_twist *twist)
 {
     const zd_space_pose *first = pose + quantity->first, *second = pose + quantity->second;
     const zd_space_twist *first_twist = twist + quantity->first, *second_twist = twist + quantity->second;
-#define TURNING_FIRST(which) turning(first, first_twist, quantity->which)
-#define TURNING_B turning(second, second_twist, quantity->b)
-#define POINT_Q point_moving(second, second_twist, quantity->point2)
-#define APART difference(POINT_Q, point_moving(first, first_twist, quantity->point1))
+#define TURNING_FIRST(which) zd_turning(first, first_twist, quantity->which)
+#define TURNING_B zd_turning(second, second_twist, quantity->b)
+#define POINT_Q zd_point_moving(second, second_twist, quantity->point2)
+#define APART zd_difference(POINT_Q, zd_point_moving(first, first_twist, quantity->point1))
     switch (quantity->kind) {
     case ZD_SPACE_ALONG: return bias_of_product(TURNING_FIRST(a), APART);
     case ZD_SPACE_COSINE: return bias_of_product(TURNING_FIRST(a), TURNING_B);
@@ -326,8 +240,10 @@ static double own_bias(const zd_space_quantity *quantity, const zd_space_pose *p
         return bias_of_angle(TURNING_FIRST(a), TURNING_FIRST(o), TURNING_B, zd_space_quantity_rate(quantity, pose, twist));
     case ZD_SPACE_ROTATION: return bias_of_rotation(quantity, pose, twist);
     case ZD_SPACE_DISTANCE: return bias_of_distance(APART, zd_space_quantity_rate(quantity, pose, twist));
-    case ZD_SPACE_CLEARANCE: return bias_of_contact(quantity, pose, twist, TURNING_FIRST(o), TURNING_FIRST(o), APART);
-    case ZD_SPACE_SLIP: return bias_of_contact(quantity, pose, twist, TURNING_FIRST(a), TURNING_FIRST(o), APART);
+    case ZD_SPACE_CLEARANCE:
+    case ZD_SPACE_SLIP:
+    case ZD_SPACE_ORBIT:
+    case ZD_SPACE_ORBIT_ACROSS: return zd_bias_of_contact(quantity, pose, twist, TURNING_FIRST(a), TURNING_FIRST(o), APART);
     case ZD_SPACE_GLIDE: return bias_of_glide(TURNING_FIRST(a), POINT_Q);
     case ZD_SPACE_SHEAR: return zd_inner3(zd_vector3_of(quantity->a), zd_minus3(POINT_Q.second,
                                        zd_cross3(first_twist->spin, zd_minus3(POINT_Q.rate, first_twist->speed))));

@@ -46,6 +46,7 @@ zd_space_quantity zd_space_picked_quantity(const zd_space_joint *joint, const zd
     copy3(frame1[o], quantity.o);
     copy3(frame2[pick->of_second], quantity.b);
     write_shape(joint, quantity.shape);
+    if (rolls && zd_space_joint_kind_of(joint->kind)->takes_length) quantity.shape[0][0] = joint->length;
     quantity.zero = pick->zero == ZD_SPACE_ZERO_ALONG ? joint->along : pick->zero == ZD_SPACE_ZERO_LENGTH ? joint->length : 0;
     return quantity;
 }

@@ -256,11 +256,11 @@ static int check_inputs(const zd_system *system, text message)
 static int check_switched_group(const zd_system *system, int i, text message)
 {
     const zd_group *group = &system->group[i];
-    const int m = system->mh + system->mn, is_single = group->kind != ZD_TWO_SIDED;
+    const int m = system->mh + system->mn, most = group->kind == ZD_TWO_SIDED ? m : group->kind == ZD_FRICTION ? 2 : 1;
     if (!group->name || !*group->name) return refuse(message, "groups: group %d must have a name", i);
-    if (group->rows < 1 || group->first < 0 || group->first > m - group->rows || (is_single && group->rows > 1))
-        return refuse(message, "groups: %s must have rows among the %d, one unless it is two-sided, not %d rows from row %d on", group->name,
-                      m, group->rows, group->first);
+    if (group->rows < 1 || group->first < 0 || group->first > m - group->rows || group->rows > most)
+        return refuse(message, "groups: %s must have rows among the %d, at most %d, not %d rows from row %d on", group->name,
+                      m, most, group->rows, group->first);
     if (group->first < system->mh && group->first + group->rows > system->mh)
         return refuse(message, "groups: %s must have rows of one kind, holonomic or not", group->name);
     if (group->kind == ZD_ONE_SIDED && group->first >= system->mh)
@@ -279,8 +279,9 @@ static int check_switched_group(const zd_system *system, int i, text message)
         return refuse(message, "groups: friction of %s must not be negative, nor sliding friction more than static", group->name);
     if (group->normal < 0 || group->normal > system->groups || (group->normal && system->group[group->normal - 1].kind != ZD_ONE_SIDED))
         return refuse(message, "groups: the normal of %s must be a one-sided group", group->name);
-    if (group->loads < 0 || group->loads > 3 || (group->loads && (group->load < 0 || group->load > m - group->loads)))
-        return refuse(message, "groups: the load of %s must be multipliers of at most 3 existing rows", group->name);
+    if (group->loads < 0 || group->loads > 4 || (group->at_ends && group->loads % 2)
+        || (group->loads && (group->load < 0 || group->load > m - group->loads)))
+        return refuse(message, "groups: the load of %s must be multipliers of at most 4 existing rows, in halves for both ends", group->name);
     return ZD_DONE;
 }
 

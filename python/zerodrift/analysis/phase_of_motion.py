@@ -60,7 +60,9 @@ def _state_at(system: BaseSystem, at: State, vdot: np.ndarray) -> list[int]:
     for g, (name, kind) in enumerate(system._groups):
         group = core.c.group[g]
         unit = TOLERANCE * (group.scale or scale.length)
-        moving = [value[group.first] / (unit * size) for value, size in zip((rates, seconds), sizes[1:], strict=True)]
+        rows = slice(group.first, group.first + group.rows)
+        moving = [(np.linalg.norm(value[rows]) if group.rows == 2 else value[group.first]) / (unit * size)
+                  for value, size in zip((rates, seconds), sizes[1:], strict=True)]
         if kind == "two-sided":
             found.append(CLOSED if group.is_active else 0)
         elif kind == "friction":
@@ -124,12 +126,14 @@ def _excesses(groups: Sequence[tuple[str, str]], c: Any, state: Sequence[int],
               multipliers: np.ndarray) -> Iterator[tuple[str, float, str]]:
     for g, (name, kind) in enumerate(groups):
         group = c[g]
-        force = multipliers[group.first] if state[g] == CLOSED else 0.0
+        force = multipliers[group.first:group.first + group.rows] if state[g] == CLOSED else np.zeros(1)
         if kind in ("one-sided", "one-way"):
-            yield name, group.sign * force, "pulls with"
+            yield name, group.sign * force[0], "pulls with"
         elif kind == "friction":
-            loads = [group.load_factor[i] * multipliers[group.load + i] for i in range(group.loads)]
+            loads = np.array([group.load_factor[i] * multipliers[group.load + i] for i in range(group.loads)])
+            F, M = np.split(loads, 2) if group.at_ends else (loads, None)
             normal = c[group.normal - 1] if group.normal else None
             load = (max(0.0, -normal.sign * multipliers[normal.first]) if normal else
-                    1.0 if not loads else max(map(abs, loads)) if group.is_largest else float(np.linalg.norm(loads)))
-            yield name, abs(force) - group.friction[0] * load, "exceeds its bound by"
+                    1.0 if not group.loads else float(np.linalg.norm(F)) if M is None else
+                    float(np.linalg.norm(F + M) + np.linalg.norm(F - M)))
+            yield name, float(np.linalg.norm(force)) - group.friction[0] * load, "exceeds its bound by"

@@ -12,7 +12,7 @@ from zerodrift._private.gateway.mechanisms.space import QUANTITY_KINDS, Body, Jo
 
 H = 1e-5            # s: of central differences, whose error is some H^2 and round-off over H
 NEAR = 3e-8         # that error, of terms of order one to ten
-SPEEDS = ("slip", "glide", "spin", "turn", "shear")
+SPEEDS = ("slip", "glide", "spin", "turn", "shear", "orbit", "orbit across")
 
 
 def quantities(rng):
@@ -34,7 +34,7 @@ def everything(rng):
     forces = [GeneralizedForce("spring", place["distance"], 3.0, 0.2), GeneralizedForce("spring", place["along"], 2.0),
               GeneralizedForce("spring", place["rotation"], 1.5, 0.3),
                *(GeneralizedForce("constant", place[kind], value=value)
-                 for kind, value in zip(SPEEDS, (1.2, 2.0, -1.5, 0.7, 0.9), strict=True))]
+                 for kind, value in zip(SPEEDS, (1.2, 2.0, -1.5, 0.7, 0.9, 0.4, -0.6), strict=True))]
     relations = [Relation([place["angle"], place["along"]], [0.3, 1.0], 0.1, 0.2),
                  Relation([place["turn"], place["glide"]], [1.0, 0.5], 0.3, nonholonomic=True)]
     measures = [OutputSpec(f"{kind} {quantity}", "", quantity, i) for i, kind in enumerate(QUANTITY_KINDS)

@@ -42,8 +42,11 @@ MOTIONS = {
 }
 
 
+MOTIONS["bearing"] = MOTIONS["revolute"]
+
+
 def test_all_are_here():
-    assert {*MOTIONS, "rolling", "knife_edge"} == KINDS.keys()
+    assert {*MOTIONS, "rolling", "sphere", "knife_edge"} == KINDS.keys()
 
 
 def drawn(kind, rng, along=0.0):

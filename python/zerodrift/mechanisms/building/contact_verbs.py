@@ -5,16 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ..._private import checks
 from ..._private.types import Expression, MeasureLike
 from ...errors import WrongType, WrongValue
 from ..elements.bodies import Body, Point
-from ..elements.contacts import Compliance, Contact, Latch, RoundContact, Stop
-from ..elements.frames import Circle, Line
+from ..elements.contacts import Compliance, Contact, Latch, LineContact, PlaneContact, RoundContact, SphereContact, Stop
+from ..elements.frames import Circle, Line, Plane, Sphere
 from ..elements.immutable import amend
 from ..elements.joints import Joint
 from ..elements.measures import Measure, name_of
 from ..elements.numbers import AS_GIVEN
+from ..elements.space_joints import TABLE
 from ..elements.switches import Switched
 from ..equations.measure_names import checked_reading
 from .registry import Elements
@@ -24,11 +27,17 @@ if TYPE_CHECKING:
 
 Friction = float | tuple[float, float]
 
+# Contacts by the kinds of shapes of each dimension, and the verbs that make these.
+SHAPES: dict[int, tuple[dict[type, Any], str]] = {
+    2: ({Line: LineContact, Circle: RoundContact},
+        "body.line(a, b), body.segment(a, b), body.circle(center, radius) or body.arc(center, a, b)"),
+    3: ({Plane: PlaneContact, Sphere: SphereContact}, "body.plane(point, normal) or body.sphere(center, radius)")}
+
 
 class ContactVerbs(Elements):
     """One-sided constraints and latches."""
 
-    def contact(self, name: str, first: Body | Point | str, shape: Line | Circle, *, radius: float = 0.0,
+    def contact(self, name: str, first: Body | Point | str, shape: Line | Circle | Plane | Sphere, *, radius: float = 0.0,
                 restitution: float = 0.0, friction: Friction = 0.0, stiffness: float | None = None, damping: float = 0.0,
                 exponent: float = 1.0) -> Contact:
         """Add a contact of a point or a round body with a shape of another body: it may rest, slide, stick, roll, lift off
@@ -39,8 +48,9 @@ class ContactVerbs(Elements):
         name : str
         first : Point, Body or name
             The point that touches, or with `radius` the centre of the round body.
-        shape : Line or Circle
-            Made by its body: `Body.line`, free on its left side, `Body.segment`, `Body.circle` or `Body.arc`.
+        shape : Line, Circle, Plane or Sphere
+            Made by its body: in the plane `Body.line`, free on its left side, `Body.segment`, `Body.circle` or `Body.arc`; in
+            space `Body.plane`, free on the side of its normal, or `Body.sphere`.
         radius : float
             Radius of the round body, in m.
         restitution : float
@@ -70,24 +80,24 @@ class ContactVerbs(Elements):
         >>> m.contact("floor", ball, m.ground.line((0, 0), (1, 0)), restitution=0.8).force
         VectorMeasure('floor.force')
         """
-        self._in_the_plane("contact")
         name = self._new_name(name, "contact")
-        if not isinstance(shape, Line | Circle):
-            raise WrongType(f"shape of {name!r} must be a shape of a body, body.line(a, b), body.segment(a, b), "
-                            f"body.circle(center, radius) or body.arc(center, a, b), not {checks.shown(shape)}")
+        kinds, verbs = SHAPES[self.dimension]
+        kind = kinds.get(type(shape))
+        if kind is None:
+            raise WrongType(f"shape of {name!r} must be a shape of a body, {verbs}, not {checks.shown(shape)}")
         radius = checks.number(f"radius of {name!r}", radius, least=0)
-        if isinstance(shape, Circle) and not shape.outside and not radius < shape.radius:
+        if isinstance(shape, Circle | Sphere) and not shape.outside and not radius < shape.radius:
             raise WrongValue(f"radius of {name!r} must be less than that of the hole, and {radius:g} is not less than "
                              f"{shape.radius:g}", "out-of-range")
-        if isinstance(shape, Circle) and not radius and not shape.radius:
-            raise WrongValue(f"radius of {name!r} must be greater than 0 for a circle of radius 0", "out-of-range")
+        if isinstance(shape, Circle | Sphere) and not radius and not shape.radius:
+            raise WrongValue(f"radius of {name!r} must be greater than 0 for a {type(shape).__name__.lower()} of radius 0",
+                             "out-of-range")
         given = self._named("first", first)
-        point = given.point((0.0, 0.0)) if isinstance(given, Body) and given.turns else self._point("first", given)
+        point = given.point(np.zeros(self.dimension)) if isinstance(given, Body) and given.turns else self._point("first", given)
         one, other = self._different(name, shape.body.point(shape.start), point)
         self._turning(name, "line of", one.body)
         if radius or any(checks.friction(f"friction of {name!r}", friction)):
             self._turning(name, "friction or radius of", *(body for body in (other.body,) if radius))
-        kind = Contact if isinstance(shape, Line) else RoundContact
         e, mu = checks.restitution(f"restitution of {name!r}", restitution), checks.friction(f"friction of {name!r}", friction)
         made = kind(name, one, other, radius, shape, e, mu, _compliance(name, stiffness, damping, exponent))
         if made.compliance and (restitution or any(made.friction) or (made.bounds(AS_GIVEN) and not radius)):
@@ -220,8 +230,6 @@ def with_switches(m: Elements, joint: Joint, given: Mapping[str, Any]) -> Joint:
         values["active"] = checks.instance(f"active of {name!r}", given["active"], bool, "True or False")
     for word in ("friction_torque", "friction_force", "friction"):
         if word in given:
-            if joint.dimension == 3 and word == "friction":
-                raise WrongValue(f"friction of {name!r} by its load is for mechanisms in the plane", "not-available")
             values["friction" if word == "friction" else "bounds"] = checks.friction(f"{word} of {name!r}", given[word])
     if len({"bounds", "friction"} & values.keys()) > 1:
         raise WrongType(f"friction of {name!r} must be given by its load or by bounds, not both", "conflicting-arguments")
@@ -232,6 +240,8 @@ def with_switches(m: Elements, joint: Joint, given: Mapping[str, Any]) -> Joint:
     joint._switched = Switched(**values)
     if joint._switched.needs_rows:
         amend(joint, cut=True)
+    if joint._switched.friction and joint.dimension == 3 and joint.coordinate == "angle":
+        amend(joint, row=TABLE["bearing"])     # whose rows tell the radial force
     return joint
 
 

@@ -8,11 +8,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .bodies import Point
-from .frames import Circle
+from .frames import Circle, Plane, Sphere, perpendicular
 from .immutable import Fixed
 from .joints import Joint
 from .measures import Measure, scalar
 from .numbers import AS_GIVEN, Numbers
+from .space_joints import SpaceJoint
 from .switches import Switch, friction_with, of_friction
 
 
@@ -47,17 +48,17 @@ class Bounds(NamedTuple):
     limits: tuple[float, float]
 
 
-class Contact(Joint):
-    """Contact of a point or a round body with a line, `Mechanism.contact`.
+class Contact:
+    """Contact of a point or a round body with a shape of another body, `Mechanism.contact`.
 
     Attributes
     ----------
     name : str
     first, second : Point
-        The start of the line, and the point or the centre of the round body.
+        The start of the shape, and the point or the centre of the round body.
     radius : float
         In m; 0: a point.
-    shape : Line
+    shape : Line, Circle, Plane or Sphere
     restitution : float
         Coefficient of restitution.
     friction : tuple of float
@@ -66,17 +67,57 @@ class Contact(Joint):
         Law of its force; None: it is rigid.
     """
 
-    unswitched, switched = None, None
-    kind, table = "contact", "rolling"
-    takes = ("radius", "shape", "restitution", "friction")
-    shape: Any
+    unswitched: Any = None
+    switched: Any = None
+    kind = "contact"
+    takes: tuple[str, ...] = ("radius", "shape", "restitution", "friction")
+    name: str
+    dimension: int
     opposite = 0        # index of the first switch of the part on the opposite side, relative to its own
+    sign = 1            # of its gap
+    owner = property(lambda self: vars(self).get("_owner", self), lambda self, owner: vars(self).update(_owner=owner),
+                     doc="The contact of which it is a part, or itself.")
+
+    def _define(self, radius: float, shape: Any, restitution: float, friction: tuple[float, float],
+                compliance: Compliance | None) -> None:
+        self.radius, self.shape, self.restitution, self.friction = radius, shape, restitution, friction
+        self.compliance = compliance
+
+    @property
+    def parts(self) -> tuple[Any, ...]:
+        """Entries of the core's table of joints, each as a contact: itself; of a compliant one none."""
+        return () if self.compliance else (self,)
+
+    def bounds(self, numbers: Numbers) -> Bounds | None:
+        """Range of the shape; None if it is unbounded."""
+        return None
+
+    def radius_with(self, numbers: Numbers) -> float:
+        """Radius of the round body in m."""
+        return numbers(self.owner, "radius", self.radius)
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
+        rigid = {"restitution": self.restitution, **of_friction("friction", self.friction)}
+        return {"radius": self.radius, **(self.compliance.numbers() if self.compliance else rigid)}
+
+    def switches(self, numbers: Numbers) -> Iterator[Switch]:
+        """Its switched constraints: the gap, and the slip."""
+        yield Switch(self.name, "one-sided", restitution=numbers(self.owner, "restitution", self.restitution), sign=self.sign,
+                     opposite=self.opposite)
+        yield Switch(self.name, "friction" if any(self.friction) else "absent", component=1, rows=self.dimension - 1, normal=1,
+                     friction=friction_with(numbers, self.owner, "friction", self.friction))
+
+
+class LineContact(Contact, Joint):      # type: ignore[misc]
+    """Contact with a line or a segment, `Mechanism.contact`; its attributes are those of `Contact`."""
+
+    kind, table = "contact", "rolling"
 
     def __init__(self, name: str, first: Point, second: Point, radius: float, shape: Any, restitution: float,
                  friction: tuple[float, float], compliance: Compliance | None = None) -> None:
-        super().__init__(name, first, second, axis=shape.direction)
-        self.radius, self.shape, self.restitution, self.friction = radius, shape, restitution, friction
-        self.compliance = compliance
+        Joint.__init__(self, name, first, second, axis=shape.direction)
+        self._define(radius, shape, restitution, friction, compliance)
 
     @property
     def parts(self) -> tuple[Joint, ...]:
@@ -87,7 +128,7 @@ class Contact(Joint):
         if line.length == np.inf:
             return (self,)
         back = line._replace(start=self.ends[1], direction=-line.direction)
-        sides = [self._part(Contact, f"{self.name} {word}", each) for word, each in (("left", line), ("right", back))]
+        sides = [self._part(LineContact, f"{self.name} {word}", each) for word, each in (("left", line), ("right", back))]
         count = len(list(sides[0].switches(AS_GIVEN))) + 1      # and that of its range
         sides[0].opposite, sides[1].opposite = count, -count
         return (*sides, *self.end_parts())
@@ -97,7 +138,7 @@ class Contact(Joint):
         """Ends (2,) of a bounded shape in the frame of its body."""
         return [np.asarray(self.shape.start + s * self.shape.direction) for s in (0.0, self.shape.length)]
 
-    def _part(self, kind: type[Contact], name: str, shape: Any) -> Any:
+    def _part(self, kind: type[LineContact], name: str, shape: Any) -> Any:
         part = kind(name, Point(shape.body, shape.start), self.second, self.radius, shape, self.restitution, self.friction)
         part.owner = self
         return part
@@ -119,26 +160,10 @@ class Contact(Joint):
 
     def length_with(self, numbers: Numbers) -> float:
         """Radius of the round body in m."""
-        return numbers(self.owner, "radius", self.radius)
-
-    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
-        rigid = {"restitution": self.restitution, **of_friction("friction", self.friction)}
-        return {"radius": self.radius, **(self.compliance.numbers() if self.compliance else rigid)}
-
-    def switches(self, numbers: Numbers) -> Iterator[Switch]:
-        """Its switched constraints: the gap, and the slip."""
-        yield Switch(self.name, "one-sided", restitution=numbers(self.owner, "restitution", self.restitution), sign=self.sign,
-                     opposite=self.opposite)
-        yield Switch(self.name, "friction" if any(self.friction) else "absent", component=1, normal=1,
-                     friction=friction_with(numbers, self.owner, "friction", self.friction))
-
-    sign = 1            # of its gap
-    owner = property(lambda self: vars(self).get("_owner", self), lambda self, owner: vars(self).update(_owner=owner),
-                     doc="The contact of which it is a part, or itself.")
+        return self.radius_with(numbers)
 
 
-class RoundContact(Contact):
+class RoundContact(LineContact):
     """Contact of a point or a round body with a circle, or with an arc of it, `Mechanism.contact`.
 
     Its attributes are those of `Contact`; `shape` is a Circle, and `first` its centre.
@@ -168,7 +193,7 @@ class RoundContact(Contact):
 
     def length_with(self, numbers: Numbers) -> float:
         """Radius of the round body in m, negative inside of the circle."""
-        return self.sign * super().length_with(numbers)
+        return self.sign * self.radius_with(numbers)
 
     def offset_as_drawn(self, numbers: Numbers) -> float:
         """Distance of the centres where they touch, in m."""
@@ -180,6 +205,47 @@ class RoundContact(Contact):
         if half_angle == np.pi:
             return None
         return Bounds((float(axis[0]), float(axis[1])), (self.offset_as_drawn(numbers) * float(np.cos(half_angle)), np.inf))
+
+
+class PlaneContact(Contact, SpaceJoint):        # type: ignore[misc]
+    """Contact of a point or a ball with a plane, `Mechanism.contact`; its attributes are those of `Contact`."""
+
+    kind, table = "contact", "rolling"
+
+    def __init__(self, name: str, first: Point, second: Point, radius: float, shape: Plane, restitution: float,
+                 friction: tuple[float, float], compliance: Compliance | None = None) -> None:
+        across = perpendicular(shape.direction)
+        frame = np.stack([shape.direction, across, np.cross(shape.direction, across)])
+        SpaceJoint.__init__(self, name, first, second, frames=(frame, np.eye(3)))
+        self._define(radius, shape, restitution, friction, compliance)
+
+    def semiaxes_with(self, numbers: Numbers) -> tuple[float, float, float]:
+        """Radius of the ball in m, three times."""
+        return (self.radius_with(numbers),) * 3
+
+
+class SphereContact(Contact, SpaceJoint):      # type: ignore[misc]
+    """Contact of a point or a ball with a sphere, `Mechanism.contact`; its attributes are those of `Contact`."""
+
+    kind, table = "contact", "sphere"
+
+    def __init__(self, name: str, first: Point, second: Point, radius: float, shape: Sphere, restitution: float,
+                 friction: tuple[float, float], compliance: Compliance | None = None) -> None:
+        SpaceJoint.__init__(self, name, first, second, frames=(np.eye(3), np.eye(3)))
+        self._define(radius, shape, restitution, friction, compliance)
+
+    @property
+    def sign(self) -> int:      # type: ignore[override]
+        """1 outside of the sphere, -1 inside."""
+        return 1 if self.shape.outside else -1
+
+    def length_with(self, numbers: Numbers) -> float:
+        """Radius of the ball in m, negative inside of the sphere."""
+        return self.sign * self.radius_with(numbers)
+
+    def along_with(self, numbers: Numbers) -> float:
+        """Distance of the centres where they touch, in m."""
+        return self.shape.radius + self.length_with(numbers)
 
 
 class Stop(Fixed):

@@ -134,10 +134,35 @@ class Circle(NamedTuple):
     half_angle: float = np.pi       # rad: of an arc, from its middle to either end
 
 
+class Plane(NamedTuple):
+    """Plane of a body in space, free on the side of its normal; `Body.plane` makes it."""
+
+    body: Any
+    start: np.ndarray       # (3,) a point of it in the body's frame, m
+    direction: np.ndarray   # (3,) its normal, of length one
+
+
+class Sphere(NamedTuple):
+    """Sphere of a body in space; `Body.sphere` makes it."""
+
+    body: Any
+    start: np.ndarray       # (3,) its centre in the body's frame, m
+    radius: float           # m
+    outside: bool           # True: what touches it is outside
+
+
 class Shapes:
     """Methods of a body that make its shapes."""
 
     pose: Pose
+
+    def _in(self, dimension: int, shape: str) -> None:
+        """Check that the mechanism of the body has this dimension."""
+        if len(self.pose.origin) != dimension:
+            where = {2: "in the plane", 3: "in space"}
+            instead = "plane() or sphere()" if dimension == 2 else "line(), segment(), circle() or arc()"
+            raise WrongValue(f"a {shape} is a shape {where[dimension]}: {where[5 - dimension]} it must be {instead} of the body",
+                             "wrong-dimension")
 
     def line(self, start: Any, end: Any) -> Line:
         """The unbounded line through two places of the drawing, that moves with the body, for `Mechanism.contact`.
@@ -156,6 +181,7 @@ class Shapes:
         ValueError
             If both are the same place.
         """
+        self._in(2, "line")
         start, end = place("start", start, 2), place("end", end, 2)
         length = np.hypot(*(end - start))
         if not length > 0:
@@ -205,6 +231,7 @@ class Shapes:
         ValueError
             For a radius below zero.
         """
+        self._in(2, "circle")
         radius = checks.number("radius of a circle", radius, least=0)
         return Circle(self, self.pose.local(place("center", center, 2)), radius, bool(outside), np.array([1.0, 0.0]))
 
@@ -229,6 +256,7 @@ class Shapes:
         ValueError
             If a place is the centre, or both are in the same direction.
         """
+        self._in(2, "circular arc")
         middle, *ends = (place(name, at, 2) for name, at in (("center", center), ("start", start), ("end", end)))
         (first, last) = (complex(*(each - middle)) for each in ends)
         if not first or not last or not (angle := float(np.angle(last / first)) % (2 * np.pi)):
@@ -236,6 +264,58 @@ class Shapes:
         towards = first / abs(first) * np.exp(0.5j * angle)
         return Circle(self, self.pose.local(middle), abs(first), bool(outside),
                       self.pose.local_direction(np.array([towards.real, towards.imag])), angle / 2)
+
+
+    def plane(self, point: Any, normal: Any) -> Plane:
+        """A plane in space that moves with the body, for `Mechanism.contact`.
+
+        Parameters
+        ----------
+        point : array_like (3,) or Point
+            A point of it in the drawing, in m.
+        normal : array_like (3,)
+            Its normal in the drawing, towards what touches it.
+
+        Returns
+        -------
+        Plane
+
+        Raises
+        ------
+        ValueError
+            For a normal of length zero.
+        """
+        self._in(3, "plane")
+        normal = checks.vector("normal", normal, 3)
+        length = float(np.linalg.norm(normal))
+        if not length > 0:
+            raise WrongValue("normal of a plane must not be zero", "geometry")
+        return Plane(self, self.pose.local(place("point", point, 3)), self.pose.local_direction(normal / length))
+
+    def sphere(self, center: Any, radius: float, *, outside: bool = True) -> Sphere:
+        """A sphere in space that moves with the body, for `Mechanism.contact`.
+
+        Parameters
+        ----------
+        center : array_like (3,) or Point
+            In the drawing, in m.
+        radius : float
+            In m; 0: a point.
+        outside : bool
+            True: bodies touch it from outside, as a ball; False: from inside, as a bowl.
+
+        Returns
+        -------
+        Sphere
+
+        Raises
+        ------
+        ValueError
+            For a radius below zero.
+        """
+        self._in(3, "sphere")
+        radius = checks.number("radius of a sphere", radius, least=0)
+        return Sphere(self, self.pose.local(place("center", center, 3)), radius, bool(outside))
 
 
 def place(argument: str, value: Any, dimension: int = 2) -> np.ndarray:

@@ -15,7 +15,8 @@ from .joints import FIRST_TORQUE, PLACE, Joint, class_of
 from .measures import scalar, vector
 from .numbers import AS_GIVEN, Numbers
 
-JOINTS = joint_kinds()
+TABLE = joint_kinds()
+JOINTS = {name: kind for name, kind in TABLE.items() if name not in ("bearing", "sphere")}     # with a verb
 RIGHT_ANGLE = 1e-9      # cosine of the angle between two axes, at most
 DIRECTIONS = ("axis", "normal", "third")
 
@@ -47,7 +48,7 @@ class SpaceJoint(Joint):
 
     def __init_subclass__(cls) -> None:
         """Sets class attributes from the entry of the core's table."""
-        cls.row = JOINTS[cls.kind]
+        cls.row = TABLE[cls.table or cls.kind]
         cls.coordinates = tuple(name for name, _ in cls.row.coordinates)
         cls.angles = tuple(name for name, quantity in cls.row.coordinates if quantity == "angle")
         cls.coordinate = cls.coordinates[0] if len(cls.coordinates) == 1 else None
@@ -88,6 +89,10 @@ class SpaceJoint(Joint):
         """Offset of the second point from the first along the axis in the drawing, in m; its displacement counts from there."""
         apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
         return float(apart @ self.axis_as_drawn())
+
+    def along_with(self, numbers: Numbers) -> float:
+        """Offset along the axis of the joint's zero position in m; of a universal joint the cosine between its axes."""
+        return self.skewness() if self.row.axes == 2 else self.offset_as_drawn(numbers) if self.row.axes else 0.0
 
     def skewness(self) -> float:
         """Cosine of the angle between the axes of a universal joint; 0 for a right one."""

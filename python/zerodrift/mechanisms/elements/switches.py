@@ -22,7 +22,7 @@ class Switch(NamedTuple):
     is_active: bool = False
     normal: int = 0             # 1 + index of the one-sided switch of the element that bounds the friction
     loads: tuple[float, ...] = ()       # factors of the multipliers of the joint's first rows, whose norm bounds it otherwise
-    is_largest: bool = False    # True: the largest of them does
+    at_ends: bool = False       # True: of their halves F and M, |F + M| + |F - M| does
     restitution: float = 0.0
     friction: tuple[float, float] = (0.0, 0.0)
     opposite: int = 0           # index of the switch of the opposite side of the shape, relative to this one; 0: none
@@ -80,6 +80,7 @@ class Switched(NamedTuple):
         friction = friction_with(numbers, joint, "friction", self.friction) if self.friction else (0.0, 0.0)
         if self.friction and joint.coordinate == "angle":       # of the radial force, by the multipliers of the pin
             yield Switch(joint.name, "friction", along, friction=friction, loads=(self.radius, self.radius))
-        elif self.friction:             # |F|, with a guide max(|F|, 2 |M| / length), which is |F/2 + M/l| + |F/2 - M/l|
-            loads = (1.0,) if self.guide is None else (1.0, 2 / self.guide)
-            yield Switch(joint.name, "friction", along, friction=friction, loads=loads, is_largest=True)
+        elif self.friction:             # |F|, or at the ends of a guide |F/2 + M/l| + |F/2 - M/l|
+            across = joint.dimension - 1        # directions
+            loads = (1.0,) * across if self.guide is None else (0.5,) * across + (1 / self.guide,) * across
+            yield Switch(joint.name, "friction", along, friction=friction, loads=loads, at_ends=self.guide is not None)

@@ -94,9 +94,9 @@ class SpaceTables(Tables):
         (first, point1), (second, point2) = self.place(joint.first), self.place(joint.second)
         frame1, frame2 = (three(self._direction(body, row) for row in frame)
                           for body, frame in zip(joint.bodies, joint.frames, strict=True))
-        along = joint.skewness() if joint.row.axes == 2 else joint.offset_as_drawn(self.numbers) if joint.row.axes else 0.0
         return space.Joint(joint.row.number, first, second, point1, point2, frame1, frame2,
-                           triple(joint.semiaxes_with(self.numbers)), along, joint.length_with(self.numbers))
+                           triple(joint.semiaxes_with(self.numbers)), joint.along_with(self.numbers),
+                           joint.length_with(self.numbers))
 
     # ---- marker quantities ----
 

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from ..._private.gateway.mechanisms.element_tables import GeneralizedForce, Group, OutputSpec, Relation
-from ..elements.contacts import Contact, RoundContact, Stop, switching
+from ..elements.contacts import Contact, LineContact, PlaneContact, RoundContact, SphereContact, Stop, switching
 from ..elements.table_forces import UNITS
 from ..elements.user_functions import Law
 from .function_calls import ForceLaw
@@ -33,7 +33,7 @@ def _add(tables: Any, element: Any) -> None:
         owner, number = ("relation", relation) if each.along or each.coupling else ("joint", joint)
         group = Group(
             each.name, owner, number, each.component, each.rows, each.kind, each.sign, each.is_active,
-            first + each.normal if each.normal else 0, each.loads, joint, each.is_largest,
+            first + each.normal if each.normal else 0, each.loads, joint, each.at_ends,
             float("ang" in each.along.rpartition(".")[2] or bool(each.coupling)), each.value, each.restitution,
             each.friction)
         if bounds and each.kind == "one-sided":
@@ -80,10 +80,10 @@ def _laws(contact: Contact, push: Any, numbers: Any) -> list[tuple[Contact, Any]
     """Parts of a compliant contact and their forces: functions of the gap, its rate, and coordinates along and across a bounded
     shape, whose nearest point pushes.
     """
-    sign, bounds, radius = contact.sign, contact.bounds(numbers), contact.length_with(numbers)
-    if not bounds:
+    sign, bounds = contact.sign, contact.bounds(numbers)
+    if not bounds or not isinstance(contact, LineContact):
         return [(contact, lambda x, rate: sign * push(sign * x, sign * rate))]
-    is_arc, length = isinstance(contact, RoundContact), bounds.limits[1]
+    is_arc, length, radius = isinstance(contact, RoundContact), bounds.limits[1], contact.length_with(numbers)
     cosine = math.cos(contact.shape.half_angle) if is_arc else 0.0
 
     def beside(along: Any, across: Any) -> Any:
@@ -118,7 +118,11 @@ def _add_law(tables: Any, element: Any, force: Any, inputs: list[int]) -> None:
 def _gap(tables: Any, contact: Any) -> Any:
     """Marker quantity of a contact's gap, which is negative inside of a hole."""
     row, kind = tables._joint(contact), tables.entries.Quantity
-    if contact.row.takes_axis:
+    if isinstance(contact, PlaneContact):
+        square = row.semiaxes[0]**2
+        return kind("clearance", row.first, row.second, row.point1, row.point2, o=row.frame1[0],
+                    shape=((square, 0.0, 0.0), (0.0, square, 0.0), (0.0, 0.0, square)))
+    if not isinstance(contact, RoundContact | SphereContact):
         return kind("across", row.first, row.second, row.point1, row.point2, row.axis, row.length)
     return kind("distance", row.first, row.second, row.point1, row.point2, zero=row.along)
 

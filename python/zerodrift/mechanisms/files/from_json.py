@@ -17,7 +17,7 @@ from ..building.table_joint_verbs import verb
 from ..building.table_verbs import FORCES, PLANE
 from ..elements.contacts import Compliance
 from ..elements.forces import Gravity
-from ..elements.frames import Circle, Line
+from ..elements.frames import Circle, Line, Plane, Sphere
 from ..elements.immutable import amend
 from ..elements.joints import Joint
 from ..elements.table_forces import TableForce, parameters, paths
@@ -158,12 +158,17 @@ def _contact(m: Any, name: str, *, first: Any, second: Any, shape: Any, radius: 
               friction=tuple(checks.vector("friction", friction, 2).tolist()), **_compliance(compliance))
 
 
-def _shape(start: Any, *, direction: Any = (1.0, 0.0), length: Any = None, ring: Any = None, outside: Any = True,
-           half_angle: Any = np.pi) -> Line | Circle:
-    axis = direction_from_json("direction", direction)
+def _shape(start: Any, *, direction: Any = None, length: Any = None, ring: Any = None, outside: Any = True,
+           half_angle: Any = np.pi) -> Line | Circle | Plane | Sphere:
+    dimension = start.dimension
+    axis = np.eye(dimension)[0] if direction is None else direction_from_json("direction", direction, dimension)
+    if ring is None and dimension == 3:
+        return Plane(start.body, start.local, axis)
     if ring is None:
         return Line(start.body, start.local, axis, np.inf if length is None else checks.number("length", length, above=0))
     outside = checks.instance("outside", outside, bool, "True or False")
+    if dimension == 3:
+        return Sphere(start.body, start.local, checks.number("ring", ring, least=0), outside)
     return Circle(start.body, start.local, checks.number("ring", ring, least=0), outside, axis,
                   checks.number("half_angle", half_angle, above=0))
 

@@ -14,7 +14,7 @@ from ..building.coupling_verbs import _Follows, _Profile, _Sum
 from ..building.table_verbs import FORCES
 from ..elements.bodies import Body, kind_of
 from ..elements.drawing import Drawing
-from ..elements.frames import Line
+from ..elements.frames import Circle, Line, Plane
 from ..elements.joints import JOINTS, Coupling
 from ..elements.table_forces import ELEMENTS, TableForce, placed
 from .expressions_json import to_json
@@ -97,8 +97,11 @@ def _contact(contact: Any, drawing: Drawing) -> dict[str, Any]:
     shape = contact.shape
     if isinstance(shape, Line):
         given = {"direction": numbers(shape.direction), **({"length": shape.length} if shape.length < np.inf else {})}
+    elif isinstance(shape, Plane):
+        given = {"direction": numbers(shape.direction)}
     else:
-        arc = {"direction": numbers(shape.direction), "half_angle": shape.half_angle} if shape.half_angle < np.pi else {}
+        arc = {"direction": numbers(shape.direction), "half_angle": shape.half_angle} if isinstance(
+            shape, Circle) and shape.half_angle < np.pi else {}
         given = {"ring": shape.radius, "outside": shape.outside, **arc}
     return {**sides(contact, drawing), "shape": given, "radius": contact.radius, "restitution": contact.restitution,
             "friction": list(contact.friction), **_compliance(contact)}

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from ..elements.bodies import Body, Particle, Point
-from ..elements.contacts import Contact, RoundContact
+from ..elements.contacts import LineContact, RoundContact
 from ..elements.drawing import Drawing, Inertias
 from ..elements.frames import Pose, turned
 from ..elements.joints import Joint, Rolling
@@ -119,17 +119,17 @@ class Posed:
         assert joint.axis is not None
         return self.direction(joint.bodies[0], joint.axis)
 
-    def contact(self, joint: Rolling | Contact) -> np.ndarray:
+    def contact(self, joint: Rolling | LineContact) -> np.ndarray:
         """Place (2,) on the line or circle that a body rolls on or may touch, nearest to it."""
         second, start = self.at(joint.second), self.at(joint.first)
         if isinstance(joint, RoundContact):
             apart = second - start
             return start + joint.shape.radius * apart / np.hypot(*apart)
-        axis, length = self.axis(joint), joint.shape.length if isinstance(joint, Contact) else np.inf
+        axis, length = self.axis(joint), joint.shape.length if isinstance(joint, LineContact) else np.inf
         along = float((second - start) @ axis)
         return start + (along if length == np.inf else min(max(along, 0.0), length)) * axis
 
-    def surface(self, contact: Contact) -> np.ndarray:
+    def surface(self, contact: LineContact) -> np.ndarray:
         """Places (n, 2) along a bounded shape that a body may touch, which is free on their left."""
         start, axis, shape = self.at(contact.first), self.axis(contact), contact.shape
         if not isinstance(contact, RoundContact):

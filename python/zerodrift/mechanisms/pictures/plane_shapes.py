@@ -12,7 +12,7 @@ import numpy as np
 
 from ...systems.shapes import Shape
 from ..elements.bodies import Body, Ground, Particle, Point
-from ..elements.contacts import Contact, RoundContact
+from ..elements.contacts import LineContact, RoundContact
 from ..elements.drawing import Drawing
 from ..elements.joints import Joint, holds_angle
 from ..elements.numbers import Numbers
@@ -36,7 +36,7 @@ class Sketch:
         self.sliding = [joint for joint in drawing.of(Joint) if slides(joint)]
         self.slotted = {joint.bodies[0].name for joint in self.sliding if has_groove(joint)}
         touching = [joint for joint in drawing.of(Joint) if joint.row.at_contact]
-        self.surfaces = [joint for joint in touching if isinstance(joint, Contact) and joint.is_bounded]
+        self.surfaces = [joint for joint in touching if isinstance(joint, LineContact) and joint.is_bounded]
         rolling = [joint for joint in touching if joint not in self.surfaces]
         self.guided = [*self.sliding, *rolling]
         self.switched = [joint for joint in self.guided if may_be_apart(joint)]

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..._private.rotations import rotation_of
 from ..elements.bodies import Body, Point
+from ..elements.contacts import PlaneContact, SphereContact
 from ..elements.drawing import Drawing
 from ..elements.numbers import Numbers
 from ..elements.space_bodies import SpaceInertias
@@ -30,10 +31,14 @@ class SpacePosed:
         """Direction (3,) in the drawing, from one in a body's axes."""
         return self._at[body.name][1] @ np.asarray(self._inertias.direction(body, local))
 
-    def contact(self, joint: SpaceRolling) -> np.ndarray:
-        """Contact point of a rolling body with its plane, (3,): the point of its ellipsoid farthest along the reversed normal."""
+    def contact(self, joint: SpaceRolling | PlaneContact | SphereContact) -> np.ndarray:
+        """Contact point of a round body, (3,): with a plane the point of its ellipsoid farthest along the reversed normal."""
+        if isinstance(joint, SphereContact):
+            apart = self.at(joint.second) - self.at(joint.first)
+            return self.at(joint.second) - joint.length_with(self._numbers) * apart / np.linalg.norm(apart)
         normal = self.direction(joint.bodies[0], joint.frames[0][0])
         axes = np.array([self.direction(joint.bodies[1], row) for row in joint.frames[1]])
         scaled = axes * np.array(joint.semiaxes_with(self._numbers))[:, None]
         shaped = scaled.T @ (scaled @ normal)
-        return self.at(joint.second) - shaped / np.sqrt(normal @ shaped)
+        reach = np.sqrt(normal @ shaped)
+        return self.at(joint.second) - (shaped / reach if reach else 0.0)

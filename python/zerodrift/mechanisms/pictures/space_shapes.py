@@ -15,6 +15,7 @@ import numpy as np
 from ..._private.rotations import rotation_of
 from ...systems.shapes import Shape
 from ..elements.bodies import Body, Link, Particle, Point
+from ..elements.contacts import PlaneContact, SphereContact
 from ..elements.drawing import Drawing
 from ..elements.forces import Actuator
 from ..elements.joints import holds_distance
@@ -39,7 +40,8 @@ class SpaceSketch:
 
     def __init__(self, drawing: Drawing, numbers: Numbers) -> None:
         self.drawing, self.numbers, self.inertias = drawing, numbers, SpaceInertias(drawing, numbers)
-        self.rolling = {joint.bodies[1].name for joint in drawing.of(SpaceRolling)}
+        round_ones = [joint for joint in drawing.of((PlaneContact, SphereContact)) if joint.radius]
+        self.rolling = {joint.bodies[1].name for joint in (*drawing.of(SpaceRolling), *round_ones)}
         self.held = self._held()
         self.carried: dict[str, list[Particle]] = {}
         for particle in drawing.of(Particle):
@@ -122,6 +124,9 @@ class SpaceSketch:
         if isinstance(joint, SpaceRolling):
             yield from self._rolled(joint, (second, axes[1].swapaxes(1, 2)))
             return
+        if isinstance(joint, PlaneContact | SphereContact):
+            yield from self._touching(joint, first, second, axes)
+            return
         if is_on_plane(joint.row) or is_blade(joint.row):
             beside = axes[0][:, 1 if is_on_plane(joint.row) else 0:][:, :2]
             yield Shape("patch", np.concatenate([second[:, None], beside], axis=1), joint.name)
@@ -138,6 +143,20 @@ class SpaceSketch:
         for side, place in ((joint.first, first), (joint.second, second)):
             if side.body is self.drawing.ground:
                 yield Shape("ground", _together(place), joint.name)
+
+    def _touching(self, joint: PlaneContact | SphereContact, first: np.ndarray, second: np.ndarray,
+                  axes: list[np.ndarray]) -> Iterator[Shape]:
+        """Patch of a plane, three sections of a sphere, and those of the ball, or a dot at the point that touches."""
+        balls = [(second, axes[1], joint.radius_with(self.numbers), joint.bodies[1])]
+        if isinstance(joint, SphereContact):
+            balls.append((first, axes[0], joint.shape.radius, joint.bodies[0]))
+        else:
+            yield Shape("patch", np.concatenate([first[:, None], axes[0][:, 1:]], axis=1), joint.name)
+        for centre, own, radius, body in balls:
+            if not radius:
+                yield Shape("dot", _together(centre), body.name)
+            for i in range(3 if radius else 0):
+                yield Shape("ring", _moved(_ring(i, radius, radius), (centre, own.swapaxes(1, 2))), body.name)
 
     def _rolled(self, joint: SpaceRolling, at: Placed) -> Iterator[Shape]:
         """Rim of a disc with a spoke, or three sections of an ellipsoid, in the axes of the shape."""

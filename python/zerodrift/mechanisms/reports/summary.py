@@ -39,14 +39,14 @@ def headline(drawing: Drawing) -> str:
 
 def report(drawing: Drawing) -> str:
     """Elements, degrees of freedom, redundant constraints, drives, and the coordinates that a simulation uses."""
-    switched, drawing = switching(drawing.elements.values()), drawing.free
+    switched, heading, drawing = switching(drawing.elements.values()), headline(drawing), drawing.free
     if not drawing.parts():
-        return f"{headline(drawing)}\n nothing moves yet"
+        return f"{heading}\n nothing moves yet"
     try:
         counted = count(drawing)
     except Exception as error:      # also of the user's functions
-        return f"{headline(drawing)}\n it cannot start: {'; '.join([sentence(error), *getattr(error, '__notes__', ())])}"
-    lines = [headline(drawing), f" {_freedom(drawing, counted)}; {_rows(counted)}"]
+        return f"{heading}\n it cannot start: {'; '.join([sentence(error), *getattr(error, '__notes__', ())])}"
+    lines = [heading, f" {_freedom(drawing, counted)}; {_rows(counted)}"]
     if counted.is_of_many and counted.redundant:
         lines.append(" undetermined reactions are not listed for so many constraints")
     if counted.undetermined:

@@ -130,7 +130,7 @@ class Group(NamedTuple):
     normal: int = 0             # 1 + index of the group of one side that bounds the friction
     loads: tuple[float, ...] = ()       # factors of the multipliers of first rows of the joint `load`, which bound it otherwise
     load: int = 0
-    is_largest: bool = False    # True: by the largest of them, not by their norm
+    at_ends: bool = False       # True: by |F + M| + |F - M| of their halves, not by their norm
     scale: float = 0.0          # unit of the value, 1 of an angle; 0: the characteristic length
     value: float = 0.0
     restitution: float = 0.0
@@ -146,7 +146,7 @@ def _written_groups(tables: Any) -> tuple[Any, Any]:
     return ffi.new("zd_element_group[]", [
         (name, lib.ZD_OF_JOINT if group.owner == "joint" else lib.ZD_OF_RELATION, group.number, group.component,
          group.rows, GROUP_KINDS[group.kind], group.sign, group.is_active, group.normal, group.load, 0, len(group.loads),
-         (*group.loads, 0.0, 0.0, 0.0)[:3], group.is_largest, group.scale, group.value, group.restitution, group.friction,
+         (*group.loads, 0.0, 0.0, 0.0, 0.0)[:4], group.at_ends, group.scale, group.value, group.restitution, group.friction,
          group.range, group.opposite, *group.limits)
         for name, group in zip(names, tables.groups, strict=True)]), names
 

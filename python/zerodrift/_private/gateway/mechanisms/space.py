@@ -21,7 +21,8 @@ QUANTITY_KINDS = {"x": lib.ZD_SPACE_X, "y": lib.ZD_SPACE_Y, "z": lib.ZD_SPACE_Z,
                   "cosine": lib.ZD_SPACE_COSINE, "angle": lib.ZD_SPACE_ANGLE,
                   "rotation": lib.ZD_SPACE_ROTATION, "distance": lib.ZD_SPACE_DISTANCE,
                   "clearance": lib.ZD_SPACE_CLEARANCE, "slip": lib.ZD_SPACE_SLIP,
-                  "glide": lib.ZD_SPACE_GLIDE, "spin": lib.ZD_SPACE_SPIN, "turn": lib.ZD_SPACE_TURN, "shear": lib.ZD_SPACE_SHEAR}
+                  "glide": lib.ZD_SPACE_GLIDE, "spin": lib.ZD_SPACE_SPIN, "turn": lib.ZD_SPACE_TURN, "shear": lib.ZD_SPACE_SHEAR,
+                  "orbit": lib.ZD_SPACE_ORBIT, "orbit across": lib.ZD_SPACE_ORBIT_ACROSS}
 NAMES = {value: name for name, value in QUANTITY_KINDS.items()}
 ZEROS = {lib.ZD_SPACE_ZERO_NONE: None, lib.ZD_SPACE_ZERO_ALONG: "along", lib.ZD_SPACE_ZERO_LENGTH: "length"}
 FREEDOMS = {lib.ZD_SPACE_SLIDES: "slides", lib.ZD_SPACE_TURNS: "turns", lib.ZD_SPACE_ADVANCES: "advances",
