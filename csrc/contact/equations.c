@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../linalg/small.h"
 #include "problem.h"
 
 static const double PIVOT_SHARE = 1e-11;    /* relative pivot below which a row depends on others */
@@ -68,4 +69,14 @@ int zd_equations_null_space(int n, double *A, double *null)
         null[column[j]] = 1;
     }
     return n - rank;
+}
+
+int zd_problem_equations(int n, double *A, double *x)
+{
+    int column[ZD_MAX_CANDIDATES], rank;
+    double solution[ZD_MAX_CANDIDATES];
+    const int is_solved = zd_equations_solve(n, A, x, column, &rank);
+    for (int i = 0; i < n; i++) solution[column[i]] = x[i];
+    zd_copy_all(n, solution, x);
+    return is_solved;
 }

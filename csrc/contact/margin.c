@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "equations.h"
 #include "phase_system.h"
 
 const double *zd_point_multipliers(const zd_point *point)
@@ -26,6 +27,80 @@ static double find_total_bound(const zd_phase_system *self, int index, const dou
     return total;
 }
 
+/* Friction of two rows that sticks on a normal group; -1: none does. */
+static int find_sticking(const zd_phase_system *self, int normal)
+{
+    for (int g = 0; g < self->full->groups; g++) {
+        const zd_group *group = self->full->group + g;
+        if (group->kind == ZD_FRICTION && group->rows == 2 && group->normal == normal + 1 && self->state[g] == ZD_CLOSED) return g;
+    }
+    return -1;
+}
+
+/* Adds a row of the full system to those of the share, as its force at `at`. */
+static void add_row(int at, int row, int *place, int *rows, int *count)
+{
+    if (*count == ZD_MAX_NULLS) return;
+    place[*count] = at;
+    rows[(*count)++] = row;
+}
+
+static void find_nulls(const zd_phase_system *self, int count, const int *place, const int *rows, zd_share *share)
+{
+    double K[ZD_MAX_NULLS * ZD_MAX_NULLS], null[ZD_MAX_NULLS * ZD_MAX_NULLS];
+    for (int i = 0; i < count; i++) {
+        const zd_row_of_C own = zd_phase_row(self, rows[i]);
+        zd_row_expand(&own, self->full->nv, self->known->row);
+        for (int j = 0; j < count; j++) {
+            const zd_row_of_C other = zd_phase_row(self, rows[j]);
+            K[i * count + j] = zd_row_times(&other, self->known->row);
+        }
+    }
+    share->nulls = zd_equations_null_space(count, K, null);
+    for (int k = 0; k < share->nulls; k++)
+        for (int i = 0; i < count; i++) share->null[k * 3 * share->contacts + place[i]] = null[k * count + i];
+}
+
+const zd_share *zd_phase_share(const zd_phase_system *self, const double *lambda)
+{
+    const zd_system *full = self->full;
+    zd_known_terms *known = self->known;
+    zd_share *share = known->share;
+    int place[ZD_MAX_NULLS], rows[ZD_MAX_NULLS], count = 0;
+    if (known->has_share) return share;
+    memset(share, 0, sizeof *share);
+    for (int g = 0; g < full->groups && share->contacts < ZD_MAX_SHARES; g++) {
+        if (full->group[g].kind != ZD_ONE_SIDED || self->state[g] != ZD_CLOSED) continue;
+        const int friction = find_sticking(self, g), at = 3 * share->contacts;
+        if (self->slides_in_planes && friction < 0) continue;
+        share->force[at] = -full->group[g].sign * lambda[full->group[g].first];
+        if (!self->slides_in_planes) add_row(at, full->group[g].first, place, rows, &count);
+        for (int i = 0; friction >= 0 && i < 2; i++) {
+            share->force[at + 1 + i] = lambda[full->group[friction].first + i];
+            add_row(at + 1 + i, full->group[friction].first + i, place, rows, &count);
+        }
+        share->friction[share->contacts] = friction < 0 ? 0 : full->group[friction].friction[0];
+        known->normal[share->contacts] = g;
+        known->friction[share->contacts++] = friction;
+    }
+    find_nulls(self, count, place, rows, share);
+    for (int i = 0; i < count; i++)         /* normal forces are those against the gap */
+        for (int k = 0; place[i] % 3 == 0 && k < share->nulls; k++)
+            share->null[k * 3 * share->contacts + place[i]] *= -full->group[known->normal[place[i] / 3]].sign;
+    zd_share_find(share);
+    known->has_share = 1;
+    return share;
+}
+
+/* Normal force of a contact in the share; `otherwise` if it is none of it. */
+static double find_shared_normal(const zd_phase_system *self, int index, const double *lambda, double otherwise)
+{
+    const zd_share *share = zd_phase_share(self, lambda);
+    for (int i = 0; i < share->contacts; i++)
+        if (self->known->normal[i] == index) return share->force[3 * i];
+    return otherwise;
+}
+
 /* Margin of a one-sided group by its state. Out of the range of its shape a closed group opens, and an open one cannot close. A shape with
  * one side may be passed from behind. */
 static double find_normal_margin(const zd_phase_system *self, int index, const double *v, const double *lambda)
@@ -36,36 +111,14 @@ static double find_normal_margin(const zd_phase_system *self, int index, const d
     if (group->kind == ZD_ONE_WAY) zd_phase_slip(self, index, v, slip), gap = group->sign * (slip[0] - group->value);
     else gap = zd_phase_gap(self, index);
     switch (self->state[index]) {
-    case ZD_CLOSED: return fmin(within, -group->sign * lambda[group->first]);
+    case ZD_CLOSED: {
+        const double N = -group->sign * lambda[group->first];
+        return fmin(within, self->is_shared && !self->slides_in_planes ? find_shared_normal(self, index, lambda, N) : N);
+    }
     case ZD_IDLE: return fmin(within, gap + ZD_TOUCHING * (group->scale > 0 ? group->scale : self->full->length));
     case ZD_BEHIND: return group->opposite ? within : fmin(within, -gap);
     default: return fmax(gap, -within);
     }
-}
-
-void zd_phase_share(const zd_phase_system *self, const double *lambda, zd_share *share, int *group)
-{
-    const zd_system *full = self->full;
-    const int nv = full->nv;
-    double K[4 * ZD_MAX_PAIRS * ZD_MAX_PAIRS];
-    share->pairs = 0;
-    for (int g = 0; g < full->groups && share->pairs < ZD_MAX_PAIRS; g++) {
-        if (full->group[g].kind != ZD_FRICTION || full->group[g].rows != 2 || self->state[g] != ZD_CLOSED) continue;
-        group[share->pairs] = g;
-        share->bound[share->pairs] = zd_friction_bound(full, g, 0, lambda);
-        for (int i = 0; i < 2; i++) share->f[2 * share->pairs + i] = lambda[full->group[g].first + i];
-        share->pairs++;
-    }
-    double *row = self->known->row;
-    for (int i = 0; i < 2 * share->pairs; i++) {
-        const zd_row_of_C own = zd_phase_row(self, full->group[group[i / 2]].first + i % 2);
-        zd_row_expand(&own, nv, row);
-        for (int j = 0; j < 2 * share->pairs; j++) {
-            const zd_row_of_C other = zd_phase_row(self, full->group[group[j / 2]].first + j % 2);
-            K[i * 2 * share->pairs + j] = zd_row_times(&other, row);
-        }
-    }
-    zd_share_find(share, K);
 }
 
 /* Bound of static friction minus its force; contacts that share a load reach their bounds at once. */
@@ -75,10 +128,7 @@ static double find_sticking_margin(const zd_phase_system *self, int index, const
     if (group->rows == 1) return find_total_bound(self, index, lambda) - fabs(lambda[group->first]);
     const double bound = zd_friction_bound(self->full, index, 0, lambda);
     if (!self->is_shared) return bound - hypot(lambda[group->first], lambda[group->first + 1]);
-    zd_share share;
-    int of[ZD_MAX_PAIRS];
-    zd_phase_share(self, lambda, &share, of);
-    return bound * (1 - share.factor);
+    return zd_phase_share(self, lambda)->margin;
 }
 
 /* Slip velocity along the direction of slip, which changes its sign where friction begins to stick. */
@@ -101,7 +151,8 @@ int zd_phase_margin(zd_phase_system *self, const zd_point *point, int index, dou
     const double *lambda = state == ZD_CLOSED ? zd_point_multipliers(point) : NULL;
     int status = ZD_DONE;
     if (is_normal) {
-        if (state != ZD_CLOSED || group->range)
+        if (state == ZD_CLOSED && self->is_shared) status = zd_phase_know(self, ZD_C | ZD_PHI, t, p, v);
+        else if (state != ZD_CLOSED || group->range)
             status = zd_phase_know(self, group->kind == ZD_ONE_WAY ? ZD_C | ZD_PHI_T : ZD_PHI, t, p, v);
         *margin = find_normal_margin(self, index, v, lambda);
     } else if (state == ZD_CLOSED) {

@@ -117,6 +117,13 @@ static void create_reading(zd_arena *arena, zd_phase_system *self)
     if (arena->base) fill_reading(self);
 }
 
+static int has_pairs(const zd_system *full)
+{
+    for (int g = 0; g < full->groups; g++)
+        if (full->group[g].kind == ZD_FRICTION && full->group[g].rows == 2) return 1;
+    return 0;
+}
+
 zd_phase_system *zd_phase_system_create(zd_arena *arena, const zd_system *full, const signed char *state)
 {
     const int m = zd_constraints(full), groups = full->groups;
@@ -135,8 +142,13 @@ zd_phase_system *zd_phase_system_create(zd_arena *arena, const zd_system *full, 
     self->direction = zd_arena_doubles(arena, 2 * (size_t)groups);
     self->speed = zd_arena_doubles(arena, groups);
     self->slow = ZD_SLOW * (full->length > 0 ? full->length : 1);
-    const zd_known_terms known = {.p = zd_arena_doubles(arena, full->nq), .v = zd_arena_doubles(arena, full->nv),
-                                  .row = zd_arena_doubles(arena, full->nv)};
+    zd_known_terms known = {.p = zd_arena_doubles(arena, full->nq), .v = zd_arena_doubles(arena, full->nv),
+                            .row = zd_arena_doubles(arena, full->nv)};
+    if (has_pairs(full)) {
+        known.share = zd_arena_bytes(arena, sizeof *known.share);
+        known.normal = zd_arena_ints(arena, ZD_MAX_SHARES);
+        known.friction = zd_arena_ints(arena, ZD_MAX_SHARES);
+    }
     self->known = zd_arena_copy(arena, &known, sizeof known);
     self->scratch = zd_arena_doubles(arena, full->scratch + self->size_of_C + full->mh + 2 * (size_t)m);
     self->layout = zd_layout_create(arena, full);

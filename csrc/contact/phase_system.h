@@ -31,6 +31,9 @@ typedef struct zd_known_terms {
     int terms;
     double t, *p, *v;       /* s, (nq,), (nv,) */
     double *row;            /* (nv,) a row of C, expanded */
+    int has_share;          /* true if `share` is that of the state */
+    zd_share *share;        /* NULL: no friction has two rows */
+    int *normal, *friction; /* (ZD_MAX_SHARES,) groups of its contacts; -1: no friction */
 } zd_known_terms;
 
 typedef struct zd_phase_system zd_phase_system;
@@ -98,9 +101,9 @@ double zd_phase_gap(const zd_phase_system *self, int group);
 double zd_phase_range_margin(const zd_phase_system *self, int group);
 /* Number of measures of the full system. */
 static inline int zd_own_measures(const zd_system *full) { return full->measures ? full->measures->count : 0; }
-/* Pairs of rows of friction that stick, with their forces from the multipliers (full m,) and their bounds; group (ZD_MAX_PAIRS,) <- theirs.
- * C of the state must be known. */
-void zd_phase_share(const zd_phase_system *self, const double *lambda, zd_share *share, int *group);
+/* Forces of the contacts that are closed and stick, in the distribution with the largest margin; C of the state must be known. With
+ * friction of two rows that slides, only those of friction may differ. */
+const zd_share *zd_phase_share(const zd_phase_system *self, const double *lambda);
 /* Sets the functions of a phase whose rows are known. */
 void zd_phase_pass_functions(zd_phase_system *self);
 /* First row of the multipliers that are the load of friction. */

@@ -36,6 +36,3 @@ size_t zd_problem_scratch(int rows);
  * Where static friction exceeds sliding friction, sticking is preferred. -1: too many cases; -2: forces that bound friction are not
  * determined. */
 int zd_problem_solve(zd_contact_problem *self);
-/* x <- solution of A x = x, (n, n), n at most ZD_MAX_CANDIDATES, with zero for unknowns that are not determined; 0 if the equations are
- * inconsistent. A is overwritten. */
-int zd_problem_equations(int n, double *A, double *x);

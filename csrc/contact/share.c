@@ -1,124 +1,130 @@
-/* Rigid contacts can bear a load as long as some distribution of it keeps all of them within their bounds. So of all distributions
+/* Rigid contacts hold as long as some distribution of their forces does. So of all distributions
  *
- *     f = f0 + sum_k z_k n_k,      n_k of the null space of the rows
+ *     y = y0 + sum_k z_k n_k,      n_k of the null space of their rows
  *
- * the one is found whose largest |f_i| / bound_i is least: Newton's method with a logarithmic barrier minimizes
+ * the one is found in which the smallest friction N_i - |f_i| is largest. Newton's method with the logarithmic barrier of these cones
+ * minimizes
  *
- *     s / mu - sum_i log(s bound_i^2 - |f_i|^2)
+ *     -t / mu - sum_i log((friction N_i - t)^2 - |f_i|^2) - log(T - t) + |y|^2 / (2 unit^2)
  *
- * over s and z while mu becomes small; s is then the square of the load factor. */
+ * over t and z while mu becomes small. T and the square bound t and y where contacts may be pressed against each other without limit.
+ */
 #include "share.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "../linalg/small.h"
-#include "equations.h"
-#include "problem.h"
 
-static const double MIN_BOUND = 1e-9;       /* smallest bound of a contact, relative to the largest */
-static const double PRECISION = 1e-14;      /* relative error of s */
-enum { SIZE = 2 * ZD_MAX_PAIRS + 1, STEPS = 200, HALVINGS = 40 };
+static const double PRECISION = 1e-13;      /* error of t, in units of the forces */
+static const double UNBOUNDED = 10;         /* T, in the same units */
+enum { SIZE = ZD_MAX_NULLS + 1, STEPS = 300, HALVINGS = 50 };
 
 typedef struct barrier {
     zd_share *of;
-    int nulls;
-    double null[2 * ZD_MAX_PAIRS * 2 * ZD_MAX_PAIRS];
-    double s, mu;
+    double unit, t, mu;
 } barrier;
+
+/* Bound of a contact's friction and, without any, its normal force; a coefficient of 0 counts as 1 there. */
+static double coefficient(const barrier *it, int i) { return it->of->friction[i] > 0 ? it->of->friction[i] : 1; }
+static double room(const barrier *it, int i) { return coefficient(it, i) * it->of->force[3 * i] - it->t; }
 
 static double slack(const barrier *it, int i)
 {
-    const double *f = it->of->f + 2 * i;
-    return it->s * it->of->bound[i] * it->of->bound[i] - (f[0] * f[0] + f[1] * f[1]);
+    const double *f = it->of->force + 3 * i + 1, left = room(it, i);
+    return left > 0 ? left * left - (f[0] * f[0] + f[1] * f[1]) : -1;
 }
 
 static double value_of(const barrier *it)
 {
-    double sum = it->s / it->mu;
-    for (int i = 0; i < it->of->pairs; i++) {
+    const double cap = UNBOUNDED * it->unit - it->t;
+    double sum = -it->t / it->mu - log(cap);
+    if (!(cap > 0)) return INFINITY;
+    for (int i = 0; i < it->of->contacts; i++) {
         const double left = slack(it, i);
         if (!(left > 0)) return INFINITY;
         sum -= log(left);
     }
+    for (int i = 0; i < 3 * it->of->contacts; i++) sum += 0.5 * (it->of->force[i] / it->unit) * (it->of->force[i] / it->unit);
     return sum;
 }
 
-/* Gradient g and Hessian H by z and, as the last one, s. */
+/* Gradient g and Hessian H by z and, as the last one, t. */
 static void differentiate(const barrier *it, double *g, double *H)
 {
-    const int n = it->nulls + 1, width = 2 * it->of->pairs;
+    const int nulls = it->of->nulls, n = nulls + 1, width = 3 * it->of->contacts;
+    const double cap = UNBOUNDED * it->unit - it->t;
     memset(g, 0, n * sizeof *g);
     memset(H, 0, (size_t)n * n * sizeof *H);
-    g[n - 1] = 1 / it->mu;
-    for (int i = 0; i < it->of->pairs; i++) {
-        const double *f = it->of->f + 2 * i, left = slack(it, i);
-        double slope[SIZE];     /* gradient of the slack */
-        for (int k = 0; k < n - 1; k++)
-            slope[k] = -2 * (f[0] * it->null[k * width + 2 * i] + f[1] * it->null[k * width + 2 * i + 1]);
-        slope[n - 1] = it->of->bound[i] * it->of->bound[i];
+    g[n - 1] = -1 / it->mu + 1 / cap;
+    H[n * n - 1] = 1 / (cap * cap);
+    for (int i = 0; i < it->of->contacts; i++) {
+        const double *f = it->of->force + 3 * i + 1, left = slack(it, i), u = room(it, i);
+        double slope[SIZE], du[SIZE];       /* gradients of the slack and of the room */
+        for (int k = 0; k < nulls; k++) {
+            const double *change = it->of->null + k * width + 3 * i;
+            du[k] = coefficient(it, i) * change[0];
+            slope[k] = 2 * (u * du[k] - f[0] * change[1] - f[1] * change[2]);
+        }
+        du[nulls] = -1, slope[nulls] = -2 * u;
         for (int k = 0; k < n; k++) {
             g[k] -= slope[k] / left;
-            for (int j = 0; j < n; j++) H[k * n + j] += slope[k] / left * (slope[j] / left);
+            for (int j = 0; j < n; j++) H[k * n + j] += slope[k] / left * (slope[j] / left) - 2 * du[k] * du[j] / left;
         }
-        for (int k = 0; k < n - 1; k++)
-            for (int j = 0; j < n - 1; j++)
-                H[k * n + j] += 2 / left * (it->null[k * width + 2 * i] * it->null[j * width + 2 * i]
-                                            + it->null[k * width + 2 * i + 1] * it->null[j * width + 2 * i + 1]);
+        for (int k = 0; k < nulls; k++)
+            for (int j = 0; j < nulls; j++) {
+                const double *a = it->of->null + k * width + 3 * i, *b = it->of->null + j * width + 3 * i;
+                H[k * n + j] += 2 * (a[1] * b[1] + a[2] * b[2]) / left;
+            }
+    }
+    for (int k = 0; k < nulls; k++) {
+        const double *a = it->of->null + k * width, scale = 1 / (it->unit * it->unit);
+        g[k] += zd_dot(width, a, it->of->force) * scale;
+        for (int j = 0; j < nulls; j++) H[k * n + j] += zd_dot(width, a, it->of->null + j * width) * scale;
     }
 }
 
 static void move(barrier *it, const double *step, double by)
 {
-    const int width = 2 * it->of->pairs;
-    for (int k = 0; k < it->nulls; k++)
-        for (int i = 0; i < width; i++) it->of->f[i] += by * step[k] * it->null[k * width + i];
-    it->s += by * step[it->nulls];
+    const int width = 3 * it->of->contacts;
+    for (int k = 0; k < it->of->nulls; k++)
+        for (int i = 0; i < width; i++) it->of->force[i] += by * step[k] * it->of->null[k * width + i];
+    it->t += by * step[it->of->nulls];
 }
 
 /* One step of Newton's method, shortened until the value falls; 0: it cannot */
 static int improve(barrier *it)
 {
-    double g[SIZE], H[SIZE * SIZE], L[SIZE * SIZE], before = value_of(it), by = 1;
-    const int n = it->nulls + 1;
+    double g[SIZE], H[SIZE * SIZE], step[SIZE], kept[3 * ZD_MAX_SHARES], slope = 0, by = 1;
+    const double before = value_of(it), t = it->t;
+    const int n = it->of->nulls + 1;
     differentiate(it, g, H);
-    if (zd_cholesky(n, H, L) < n) return 0;
-    double slope = 0, step[SIZE];
+    if (zd_cholesky(n, H, H) < n) return 0;
     for (int k = 0; k < n; k++) step[k] = -g[k];
-    zd_forward(n, L, step, step);
-    zd_backward(n, L, step, step);
+    zd_forward(n, H, step, step);
+    zd_backward(n, H, step, step);
     for (int k = 0; k < n; k++) slope += g[k] * step[k];
     if (!(-slope > 1e-9)) return 0;
+    memcpy(kept, it->of->force, sizeof kept);
     for (int i = 0; i < HALVINGS; i++, by /= 2) {
-        zd_share kept = *it->of;
-        const double s = it->s;
         move(it, step, by);
         if (value_of(it) < before + 0.1 * by * slope) return 1;
-        *it->of = kept, it->s = s;
+        memcpy(it->of->force, kept, sizeof kept), it->t = t;
     }
     return 0;
 }
 
-void zd_share_find(zd_share *self, double *K)
+void zd_share_find(zd_share *self)
 {
-    barrier it = {.of = self};
-    double largest = 0, ratio = 0;
-    it.nulls = self->nulls = zd_equations_null_space(2 * self->pairs, K, it.null);
-    for (int i = 0; i < self->pairs; i++) largest = fmax(largest, self->bound[i]);
-    if (!(largest > 0)) largest = 1e-300;
-    for (int i = 0; i < self->pairs; i++) self->bound[i] = fmax(self->bound[i], MIN_BOUND * largest) / largest;
-    for (int i = 0; i < 2 * self->pairs; i++) self->f[i] /= largest;
-    for (int i = 0; i < self->pairs; i++) ratio = fmax(ratio, hypot(self->f[2 * i], self->f[2 * i + 1]) / self->bound[i]);
-    it.s = 2 * ratio * ratio;
-    it.mu = it.s;
-    for (int i = 0; it.nulls && ratio > 0 && i < STEPS && it.mu > PRECISION * it.s; i++)
+    barrier it = {.of = self, .unit = zd_max_abs(3 * self->contacts, self->force), .t = INFINITY};
+    if (!(it.unit > 0)) it.unit = 1e-300;
+    for (int i = 0; i < self->contacts; i++)
+        it.t = fmin(it.t, coefficient(&it, i) * self->force[3 * i] - hypot(self->force[3 * i + 1], self->force[3 * i + 2]));
+    self->margin = it.t;
+    it.t = fmin(it.t, 0) - it.unit;
+    it.mu = it.unit;
+    for (int i = 0; i < STEPS && it.mu > PRECISION * it.unit; i++)
         if (!improve(&it)) it.mu /= 8;
-    self->factor = 0;
-    for (int i = 0; i < self->pairs; i++) {
-        const double own = hypot(self->f[2 * i], self->f[2 * i + 1]) / self->bound[i];
-        self->factor = fmax(self->factor, own);
-        self->weight[i] = it.nulls && ratio > 0 ? it.mu * self->bound[i] * self->bound[i] / slack(&it, i) : own;
-    }
-    for (int i = 0; i < 2 * self->pairs; i++) self->f[i] *= largest;
-    for (int i = 0; i < self->pairs; i++) self->bound[i] *= largest;
+    if (self->nulls) self->margin = it.t;
+    for (int i = 0; i < self->contacts; i++) self->weight[i] = it.mu * 2 * room(&it, i) / slack(&it, i);
 }

@@ -1,16 +1,16 @@
-/* Friction of several contacts that stick and bear one load together: how it is shared among them. */
+/* Forces of several contacts that are closed and stick together, which are not determined: whether any of them hold. */
 #pragma once
 
-enum { ZD_MAX_PAIRS = 12 };
+enum { ZD_MAX_SHARES = 24, ZD_MAX_NULLS = 24 };
 
 typedef struct zd_share {
-    int pairs;
-    double f[2 * ZD_MAX_PAIRS];     /* forces of each in two directions; result: those of the least load factor */
-    double bound[ZD_MAX_PAIRS];
-    double weight[ZD_MAX_PAIRS];    /* result: share of each in what limits the load factor; 0: it is within its bound */
-    int nulls;                      /* result: number of unknowns of f that are not determined */
-    double factor;                  /* result: max |f_i| / bound_i, which no other distribution makes less; they stick up to 1 */
+    int contacts;
+    double force[3 * ZD_MAX_SHARES];        /* N and two components of friction of each; result: those with the largest margin */
+    double friction[ZD_MAX_SHARES];         /* coefficient of static friction; 0: the contact has none */
+    int nulls;                              /* number of ways in which the forces may differ */
+    double null[ZD_MAX_NULLS * 3 * ZD_MAX_SHARES];          /* (nulls, 3 contacts) */
+    double margin;          /* result, N: largest of all distributions, of the smallest of friction N - |f|, or of N; they hold from 0 on */
+    double weight[ZD_MAX_SHARES];           /* result: share of each in what limits the margin */
 } zd_share;
 
-/* K (2 pairs, 2 pairs): products of the rows of the pairs, whose null vectors are the distributions that differ; it is overwritten. */
-void zd_share_find(zd_share *self, double *K);
+void zd_share_find(zd_share *self);

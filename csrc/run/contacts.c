@@ -47,14 +47,14 @@ static signed char find_pair_end(const zd_contacts *it, int g, double *direction
     const zd_phases *phases = it->phases;
     const zd_phase_system *of = phases->present->of;
     const double *lambda = zd_point_multipliers(it->run->motion.point), *f = lambda + phases->full->group[g].first;
-    int is_any = has_ended(it, g), group[ZD_MAX_PAIRS];
-    zd_share share;
+    int is_any = has_ended(it, g);
     if (phases->state[g] != ZD_CLOSED) return ZD_OPEN;
     if (of->is_shared) {
-        zd_phase_share(of, lambda, &share, group);
-        for (int i = 0; i < share.pairs; i++) {
-            is_any |= has_ended(it, group[i]);
-            if (group[i] == g) f = share.weight[i] > LIMITS ? share.f + 2 * i : NULL;
+        const zd_share *share = zd_phase_share(of, lambda);
+        for (int i = 0; i < share->contacts; i++) {
+            const int friction = of->known->friction[i];
+            is_any |= friction >= 0 && has_ended(it, friction);
+            if (friction == g) f = share->weight[i] > LIMITS ? share->force + 3 * i + 1 : NULL;
         }
     }
     if (!is_any || !f) return ZD_OPEN;

@@ -1,6 +1,7 @@
 /* Contacts that touch at an instant, with their friction, as candidates of one small problem: contact/problem.h. */
 #pragma once
 
+#include "../contact/equations.h"
 #include "../contact/problem.h"
 #include "phases.h"
 

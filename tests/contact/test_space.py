@@ -299,3 +299,56 @@ def test_shapes_of_the_other_dimension_are_refused():
         m.contact("a", body, "floor")
     with pytest.raises(ValueError, match="normal of a plane must not be zero"):
         m.ground.plane((0, 0, 0), (0, 0, 0))
+
+
+# ---- forces that are not determined ----
+
+
+@pytest.mark.parametrize(("friction", "holds"), [(0.3, True), (0.25, False)])
+def test_ladder_between_floor_and_wall(friction, holds):
+    """Steeper than atan((1 - mu^2) / (2 mu)), where both ends slide, it holds; its forces are not determined."""
+    length = 2.0
+    tangent = 1.7       # of its angle from the floor: (1 - mu^2) / (2 mu) is 1.52 and 1.88
+    foot, top = (np.array(each) * length / np.hypot(1, tangent) for each in ((1.0, 0, 0), (0, 0, tangent)))
+    along = (top - foot) / length
+    axes = np.stack([along, [0, 1, 0], np.cross(along, [0, 1, 0])], axis=1)
+    m = zd.Mechanism("ladder", gravity=(0, 0, -G), dimension=3)
+    body = m.body("b", 5.0, np.diag([0.05, 1.7, 1.7]), at=(foot + top) / 2, rotation=axes)
+    m.contact("foot", body.point((-length / 2, 0, 0)), m.ground.plane((0, 0, 0), (0, 0, 1)), friction=friction)
+    m.contact("wall", body.point((length / 2, 0, 0)), m.ground.plane((0, 0, 0), (1, 0, 0)), friction=friction)
+    sol = zd.simulate(m, 0.3)
+    assert (states(sol) == [("sticking", "sticking")]) == holds
+    assert (np.abs(sol["b.velocity"][-1]).max() < 1e-12) == holds
+
+
+def test_pendulum_whose_end_sticks():
+    m = zd.Mechanism("pendulum", gravity=(0, 0, -G), dimension=3)
+    body = m.body("b", 1.0, np.diag([0.01, 0.08, 0.08]), at=(0.5, 0, 0))
+    m.spherical("pin", m.ground.point((0, 0, 0)), body.point((-0.5, 0, 0)))
+    m.contact("floor", body.point((0.5, 0, 0)), m.ground.plane((0, 0, -0.8), (0, 0, 1)), friction=0.2)
+    m.start({"b.angular_velocity.z": 0.3})
+    sol = zd.simulate(m, 1.0)
+    assert states(sol) == [("open",), ("sticking",)]
+    assert np.abs(sol["b.angular_velocity"][-1]).max() < 1e-12
+
+
+def test_direction_of_an_impulse_is_found():
+    """A point that slides down a slope hits a wall: the impulses, by sweeps of the projected Gauss-Seidel method."""
+    mu, e = 0.107, 0.444
+    normal = np.array([0.2939268519047165, 0.09211788890820324, 0.9513786313936627])
+    m = zd.Mechanism("point", gravity=(0, 0, -G), dimension=3)
+    point = m.particle("p", 1.0, at=(0, 0, 0))
+    m.contact("slope", point, m.ground.plane((0, 0, 0), normal), friction=mu)
+    m.contact("wall", point, m.ground.plane((0.3, 0, 0), (-1, 0, 0)), friction=mu, restitution=e)
+    m.start({"p.velocity.y": 0.4, "p.velocity.z": -0.4 * normal[1] / normal[2]})
+    sol = zd.simulate(m, 1.0)
+    i = int(np.flatnonzero(sol.t == sol.impacts["t"][0])[0])
+    before, after = sol["p.velocity"][i], sol["p.velocity"][i + 1]
+    z, wall = np.zeros((2, 3)), np.array([-1.0, 0, 0])
+    for _ in range(2000):
+        for k, (n, restitution) in enumerate(((normal, 0.0), (wall, e))):
+            v = before + z.sum(axis=0)
+            N = max(0.0, z[k] @ n - (v + restitution * before) @ n)
+            across = z[k] - z[k] @ n * n - (v - v @ n * n)
+            z[k] = N * n + across * min(1.0, mu * N / max(np.linalg.norm(across), 1e-300))
+    assert np.abs(after - before - z.sum(axis=0)).max() < 1e-9

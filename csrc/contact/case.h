@@ -1,0 +1,36 @@
+/* One case of a problem of contacts: the state of each row, and the forces that follow. */
+#pragma once
+
+#include "problem.h"
+
+static const double ZD_SIGN_SHARE = 1e-9;   /* share of the largest value below which a sign is rounding */
+
+typedef struct zd_case {
+    zd_contact_problem *of;
+    signed char *state;     /* (rows,) */
+    int *active, *column;
+    int count, rank;               /* numbers of active rows, and of those that are independent */
+    double *A, *x, *z, *w;
+    double *e;              /* (rows,) directions of slip */
+    double size;            /* largest |b| */
+    int found;
+    int shared;             /* number of unknowns of friction of two rows that are not determined */
+    int least;              /* and of normal forces, of which the least are taken */
+    int slip_sign;          /* 1: sliding friction must move; -1: it may be at rest, if no other solution exists */
+    int is_undetermined;    /* true if a case would be a solution, if the normal forces that bound its friction were determined */
+} zd_case;
+
+/* First guesses of directions that are sought, in the problem. */
+void zd_case_guess_directions(zd_case *self);
+/* z and w of the case, with its directions; 0: it has no solution. */
+int zd_case_solve(zd_case *self);
+/* True if friction of two rows that sticks is within its bounds, in any distribution of forces that are not determined: also of normal ones,
+ * if no sliding depends on these. z <- one that shows it. */
+int zd_case_pairs_stick(zd_case *self);
+int zd_case_has_pairs(const zd_case *self);
+int zd_case_has_sliding_pairs(const zd_case *self);
+/* True if friction i of two rows slides in a direction that is sought. */
+int zd_case_seeks_direction(const zd_case *self, int i);
+int zd_case_sticks_with_another(const zd_case *self, int i);
+/* Bound of static friction of a row, with those of the rows that stick with it. */
+double zd_case_total_bound(const zd_case *self, int i);
