@@ -66,7 +66,7 @@ const zd_share *zd_phase_share(const zd_phase_system *self, const double *lambda
     const zd_system *full = self->full;
     zd_known_terms *known = self->known;
     zd_share *share = known->share;
-    int place[ZD_MAX_NULLS], rows[ZD_MAX_NULLS], count = 0;
+    int place[ZD_MAX_NULLS] = {0}, rows[ZD_MAX_NULLS] = {0}, count = 0;
     if (known->has_share) return share;
     memset(share, 0, sizeof *share);
     for (int g = 0; g < full->groups && share->contacts < ZD_MAX_SHARES; g++) {

@@ -8,13 +8,14 @@
  * or no step could reach the instant at which friction begins to stick; and errors of a slow s must not turn it. So with d the direction at
  * the start of the step,
  *
- *     e = w / |w|,      w = s + slow d exp(-|s|^2 / slow^2),      with -s in the place of s where s . d < 0
+ *     e = w / |w|,      w = s + slow d exp(-|s|^2 / slow^2),      with s + 2 |s . d| d in the place of s where s . d < 0
  */
 #include "phase_system.h"
 
 #include <math.h>
 #include <string.h>
 
+static const double LEFT = 4;               /* slip in units of the slow one, from which its end is at zero again */
 static const double REVERSED = 1e-6;        /* cosine of two directions of slip, up to which they have reversed */
 
 /* ---- memory of the full system's constraints ---- */
@@ -93,9 +94,9 @@ static void find_direction(const zd_phase_system *self, double *scratch, int ind
     const double *d = self->direction + 2 * index;
     double s[2];
     slip_in(self, scratch, index, v, s);
-    const double sign = s[0] * d[0] + s[1] * d[1] < 0 ? -1 : 1;
-    const double ratio = hypot(s[0], s[1]) / self->slow, kept = self->slow * exp(-ratio * ratio);
-    for (int i = 0; i < 2; i++) s[i] = sign * s[i] + kept * d[i];
+    const double along = s[0] * d[0] + s[1] * d[1], ratio = hypot(s[0], s[1]) / self->slow;
+    const double added = self->slow * exp(-ratio * ratio) - 2 * fmin(0, along);
+    for (int i = 0; i < 2; i++) s[i] += added * d[i];
     const double size = hypot(s[0], s[1]);
     for (int i = 0; i < 2; i++) e[i] = size > 0 ? s[i] / size : 0;
 }
@@ -111,6 +112,7 @@ int zd_phase_turn(const zd_phase_system *self, int is_start, double t, const dou
         const double size = hypot(s[0], s[1]);
         if (size <= self->slow || (!is_start && d[0] * s[0] + d[1] * s[1] <= REVERSED * size)) continue;
         self->speed[g] = size;
+        if (!is_start && size > LEFT * self->slow) self->bias[g] = 0;
         d[0] = s[0] / size, d[1] = s[1] / size;
     }
     return ZD_DONE;

@@ -84,7 +84,7 @@ static void check_case(zd_case *it)
     zd_contact_problem *of = it->of;
     if (!zd_case_solve(it) || !is_solution(it)) return;
     if (it->found) {
-        it->found += !of->least && !it->least && is_another(it);      /* with other least forces it is a choice */
+        it->found += !of->least && !it->least && !it->is_undetermined && is_another(it);      /* another distribution is a choice */
         return;
     }
     it->found = 1;

@@ -112,7 +112,7 @@ static int add_candidate(zd_contacts *it, int g, int component, int normal, doub
     it->ends[it->count] = it->row[it->count].pair ? find_pair_end(it, g, direction) : find_end(it, g);
     it->direction[it->count] = direction[component];
     it->missed[it->count] = it->row[it->count].pair && zd_slides(it->phases->state[g]) && has_reversed(it)
-                          ? MISSED * it->phases->present->of->speed[g] : 0;
+                          ? fmax(MISSED * it->phases->present->of->speed[g], it->phases->present->of->slow) : 0;
     it->count++;
     return ZD_DONE;
 }

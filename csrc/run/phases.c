@@ -288,7 +288,7 @@ static int begin_margins(zd_run *run)
     for (int g = 0; !status && g < self->full->groups; g++) {
         double margin;
         status = zd_phase_margin(of, run->motion.point, g, self->at.t, self->at.p, self->at.v, &margin);
-        const double rounding = MARGIN_ROUNDING * self->length;
+        const double rounding = self->full->group[g].rows == 2 && zd_slides(of->state[g]) ? of->slow : MARGIN_ROUNDING * self->length;
         if (margin < rounding) of->bias[g] = rounding - margin;
     }
     if (!status) status = zd_watch_start(&run->watch);

@@ -352,3 +352,28 @@ def test_direction_of_an_impulse_is_found():
             across = z[k] - z[k] @ n * n - (v - v @ n * n)
             z[k] = N * n + across * min(1.0, mu * N / max(np.linalg.norm(across), 1e-300))
     assert np.abs(after - before - z.sum(axis=0)).max() < 1e-9
+
+
+@pytest.mark.parametrize("settings", [{}, {"rtol": 1e-9}, {"integrator": "radau"}], ids=str)
+def test_slip_that_turns_as_it_ends(settings):
+    """A ball that slides across a slope until it rolls: with equal friction, one solution for all methods."""
+    angle = 0.3
+    axes = slope(angle)
+    m, body = ball(R * axes[:, 2])
+    m.contact("slope", body, m.ground.plane((0, 0, 0), axes[:, 2]), radius=R, friction=0.3)
+    moving(m, body, axes[:, :2] @ (0.3, 1.0))
+    sol = zd.simulate(m, 1.0, **settings)
+    mu, down = 0.3 * G * np.cos(angle), np.array([G * np.sin(angle), 0.0])
+
+    def equations(_, y):        # velocity of the centre, and slip
+        friction = -mu * y[2:] / np.hypot(*y[2:])
+        return [*(down + friction), *(down + 3.5 * friction)]
+
+    def rolls(_, y):
+        return np.hypot(*y[2:]) - 1e-9
+    rolls.terminal = True
+    own = solve_ivp(equations, (0, 1), [0.3, 1.0, 0.3, 1.0], rtol=1e-12, atol=1e-14, events=rolls)
+    assert states(sol)[0] == ("sliding",)
+    assert states(sol)[-1] == ("sticking",)
+    rolling = own.y[:2, -1] + down * 5 / 7 * (1.0 - own.t[-1])
+    assert np.abs(axes[:, :2].T @ sol["ball.velocity"][-1] - rolling).max() < 2e-6

@@ -233,7 +233,8 @@ class Shapes:
         """
         self._in(2, "circle")
         radius = checks.number("radius of a circle", radius, least=0)
-        return Circle(self, self.pose.local(place("center", center, 2)), radius, bool(outside), np.array([1.0, 0.0]))
+        outside = checks.instance("outside of a circle", outside, bool, "True or False")
+        return Circle(self, self.pose.local(place("center", center, 2)), radius, outside, np.array([1.0, 0.0]))
 
     def arc(self, center: Any, start: Any, end: Any, *, outside: bool = True) -> Circle:
         """An arc that moves with the body, counter-clockwise from one place of the drawing to another, for `Mechanism.contact`.
@@ -315,7 +316,8 @@ class Shapes:
         """
         self._in(3, "sphere")
         radius = checks.number("radius of a sphere", radius, least=0)
-        return Sphere(self, self.pose.local(place("center", center, 3)), radius, bool(outside))
+        outside = checks.instance("outside of a sphere", outside, bool, "True or False")
+        return Sphere(self, self.pose.local(place("center", center, 3)), radius, outside)
 
 
 def place(argument: str, value: Any, dimension: int = 2) -> np.ndarray:
