@@ -38,17 +38,32 @@ int zd_case_has_pairs(const zd_case *it)
     return 0;
 }
 
+/* Null vectors of W of normal rows; returns their number. */
+static int find_normal_nulls(const zd_case *it, int count, const int *row, double *null)
+{
+    double W[ZD_MAX_CANDIDATES * ZD_MAX_CANDIDATES];
+    for (int a = 0; a < count; a++)
+        for (int c = 0; c < count; c++) W[a * count + c] = it->of->W[row[a] * it->of->rows + row[c]];
+    return zd_equations_null_space(count, W, null);
+}
+
+int zd_case_normals_depend(const zd_case *it)
+{
+    double null[ZD_MAX_CANDIDATES * ZD_MAX_CANDIDATES];
+    int row[ZD_MAX_CANDIDATES], normals = 0;
+    for (; normals < it->of->rows && it->of->row[normals].normal < 0; normals++) row[normals] = normals;
+    return find_normal_nulls(it, normals, row, null) > 0;
+}
+
 /* The least normal forces where they are not determined: sum W_kk z_k^2 = min. With null vectors n of their W,
  * n . (W_kk z_k) = 0 is added to equations that depend on others. */
 static void choose_least(zd_case *it)
 {
     const zd_contact_problem *of = it->of;
-    double W[ZD_MAX_CANDIDATES * ZD_MAX_CANDIDATES], null[ZD_MAX_CANDIDATES * ZD_MAX_CANDIDATES];
+    double null[ZD_MAX_CANDIDATES * ZD_MAX_CANDIDATES];
     int normals = 0;
     while (normals < it->count && of->row[it->active[normals]].normal < 0) normals++;
-    for (int a = 0; a < normals; a++)
-        for (int c = 0; c < normals; c++) W[a * normals + c] = of->W[it->active[a] * of->rows + it->active[c]];
-    it->least = zd_equations_null_space(normals, W, null);
+    it->least = find_normal_nulls(it, normals, it->active, null);
     for (const double *n = null; n < null + it->least * normals; n += normals)
         for (int a = 0; a < normals; a++)
             for (int c = 0; c < normals; c++)
@@ -113,7 +128,7 @@ static void sweep_pair(zd_case *it, int i)
     const double w[] = {find_w(it, i), find_w(it, i + 1)};
     double size = 1;
     for (int k = 0; k < 2; k++) it->z[i + k] = is_given ? -bound * of->direction[i + k] : it->z[i + k] - w[k] / scale;
-    if (!is_given) size = hypot(it->z[i], it->z[i + 1]) / bound;
+    if (!is_given) size = zd_length_of_two(it->z[i], it->z[i + 1]) / bound;
     for (int k = 0; k < 2 && size > 1; k++) it->z[i + k] = bound > 0 ? it->z[i + k] / size : 0;
 }
 
@@ -128,7 +143,7 @@ void zd_case_guess_directions(zd_case *it)
             else if (of->row[i].pair == 1) sweep_pair(it, i);
         }
     for (int i = 0; i < of->rows; i++) {
-        const double size = of->row[i].pair == 1 ? hypot(it->z[i], it->z[i + 1]) : 0;
+        const double size = of->row[i].pair == 1 ? zd_length_of_two(it->z[i], it->z[i + 1]) : 0;
         if (!(size > 0) || of->direction[i] != 0 || of->direction[i + 1] != 0) continue;
         of->direction[i] = -it->z[i] / size, of->direction[i + 1] = -it->z[i + 1] / size;
     }
@@ -141,7 +156,7 @@ static void begin_directions(zd_case *it)
     for (int i = 0; i < of->rows; i++) {
         it->e[i] = of->row[i].pair ? of->direction[i] : zd_slip_sign(it->state[i]);
         if (of->row[i].pair != 2 || it->e[i - 1] != 0 || it->e[i] != 0) continue;
-        const double size = hypot(of->b[i - 1], of->b[i]);
+        const double size = zd_length_of_two(of->b[i - 1], of->b[i]);
         it->e[i - 1] = size > 0 ? of->b[i - 1] / size : 1;
         it->e[i] = size > 0 ? of->b[i] / size : 0;
     }

@@ -17,11 +17,15 @@ typedef struct zd_case {
     int shared;             /* number of unknowns of friction of two rows that are not determined */
     int least;              /* and of normal forces, of which the least are taken */
     int slip_sign;          /* 1: sliding friction must move; -1: it may be at rest, if no other solution exists */
+    int depends;            /* true if normal forces may not be determined, of which the least are taken */
+    double effort;          /* sum W_kk z_k^2 of the normal forces of the solution that has been found */
     int is_undetermined;    /* true if a case would be a solution, if the normal forces that bound its friction were determined */
 } zd_case;
 
 /* First guesses of directions that are sought, in the problem. */
 void zd_case_guess_directions(zd_case *self);
+/* True if normal rows depend on others. */
+int zd_case_normals_depend(const zd_case *self);
 /* z and w of the case, with its directions; 0: it has no solution. */
 int zd_case_solve(zd_case *self);
 /* True if friction of two rows that sticks is within its bounds, in any distribution of forces that are not determined: also of normal ones,

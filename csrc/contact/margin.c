@@ -127,7 +127,7 @@ static double find_sticking_margin(const zd_phase_system *self, int index, const
     const zd_group *group = self->full->group + index;
     if (group->rows == 1) return find_total_bound(self, index, lambda) - fabs(lambda[group->first]);
     const double bound = zd_friction_bound(self->full, index, 0, lambda);
-    if (!self->is_shared) return bound - hypot(lambda[group->first], lambda[group->first + 1]);
+    if (!self->is_shared) return bound - zd_length_of_two(lambda[group->first], lambda[group->first + 1]);
     return zd_phase_share(self, lambda)->margin;
 }
 

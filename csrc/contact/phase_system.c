@@ -8,7 +8,7 @@
  * or no step could reach the instant at which friction begins to stick; and errors of a slow s must not turn it. So with d the direction at
  * the start of the step,
  *
- *     e = w / |w|,      w = s + slow d exp(-|s|^2 / slow^2),      with s + 2 |s . d| d in the place of s where s . d < 0
+ *     e = w / |w|,      w = s + slow d (1 - |s|^2 / (4 slow)^2)^4, within 4 slow,      with s + 2 |s . d| d in the place of s where s . d < 0
  */
 #include "phase_system.h"
 
@@ -94,10 +94,10 @@ static void find_direction(const zd_phase_system *self, double *scratch, int ind
     const double *d = self->direction + 2 * index;
     double s[2];
     slip_in(self, scratch, index, v, s);
-    const double along = s[0] * d[0] + s[1] * d[1], ratio = hypot(s[0], s[1]) / self->slow;
-    const double added = self->slow * exp(-ratio * ratio) - 2 * fmin(0, along);
+    const double along = s[0] * d[0] + s[1] * d[1], ratio = zd_length_of_two(s[0], s[1]) / (4 * self->slow);
+    const double left = fmax(0, 1 - ratio * ratio), added = self->slow * left * left * left * left - 2 * fmin(0, along);
     for (int i = 0; i < 2; i++) s[i] += added * d[i];
-    const double size = hypot(s[0], s[1]);
+    const double size = zd_length_of_two(s[0], s[1]);
     for (int i = 0; i < 2; i++) e[i] = size > 0 ? s[i] / size : 0;
 }
 
@@ -109,7 +109,7 @@ int zd_phase_turn(const zd_phase_system *self, int is_start, double t, const dou
         if (status) return status;
         double s[2], *d = self->direction + 2 * g;
         zd_phase_slip(self, g, v, s);
-        const double size = hypot(s[0], s[1]);
+        const double size = zd_length_of_two(s[0], s[1]);
         if (size <= self->slow || (!is_start && d[0] * s[0] + d[1] * s[1] <= REVERSED * size)) continue;
         self->speed[g] = size;
         if (!is_start && size > LEFT * self->slow) self->bias[g] = 0;

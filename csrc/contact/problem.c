@@ -79,15 +79,24 @@ static int is_held_by_others(const zd_case *it, int i)
     return 0;
 }
 
+/* Sum W_kk z_k^2 of the normal forces */
+static double find_effort(const zd_case *it)
+{
+    double sum = 0;
+    for (int i = 0; i < it->of->rows && it->of->row[i].normal < 0; i++) sum += it->of->W[i * (it->of->rows + 1)] * it->z[i] * it->z[i];
+    return sum;
+}
+
 static void check_case(zd_case *it)
 {
     zd_contact_problem *of = it->of;
     if (!zd_case_solve(it) || !is_solution(it)) return;
-    if (it->found) {
-        it->found += !of->least && !it->least && !it->is_undetermined && is_another(it);      /* another distribution is a choice */
-        return;
-    }
+    const double effort = find_effort(it);
+    const int is_new = it->found && is_another(it);
+    if (!it->depends) it->found += is_new;
+    if (it->found && !(is_new && it->depends && effort < (1 - ZD_SIGN_SHARE) * it->effort)) return;
     it->found = 1;
+    it->effort = effort;
     memcpy(of->state, it->state, of->rows);
     for (int i = 0; i < of->rows; i++)
         if (it->state[i] == ZD_CLOSED && zd_case_sticks_with_another(it, i)) of->state[i] = ZD_IDLE;
@@ -155,6 +164,7 @@ int zd_problem_solve(zd_contact_problem *self)
     zd_case it = {self, state, active, column, .size = size};
     find_parallel(self);
     it.A = self->scratch, it.x = it.A + (size_t)n * n, it.z = it.x + n, it.w = it.z + n, it.e = it.w + n;
+    it.depends = self->takes_least && zd_case_normals_depend(&it);
     int seeks = 0;
     for (int i = 0; i < n; i++) seeks |= self->row[i].pair && (self->row[i].slides == ZD_OPEN || self->row[i].seeks);
     if (seeks) zd_case_guess_directions(&it);

@@ -18,7 +18,7 @@
 
 static const double PRECISION = 1e-13;      /* error of t, in units of the forces */
 static const double UNBOUNDED = 10;         /* T, in the same units */
-enum { SIZE = ZD_MAX_NULLS + 1, STEPS = 300, HALVINGS = 50 };
+enum { SIZE = ZD_MAX_NULLS + 1, STEPS = 1000 };
 
 typedef struct barrier {
     zd_share *of;
@@ -33,20 +33,6 @@ static double slack(const barrier *it, int i)
 {
     const double *f = it->of->force + 3 * i + 1, left = room(it, i);
     return left > 0 ? left * left - (f[0] * f[0] + f[1] * f[1]) : -1;
-}
-
-static double value_of(const barrier *it)
-{
-    const double cap = UNBOUNDED * it->unit - it->t;
-    double sum = -it->t / it->mu - log(cap);
-    if (!(cap > 0)) return INFINITY;
-    for (int i = 0; i < it->of->contacts; i++) {
-        const double left = slack(it, i);
-        if (!(left > 0)) return INFINITY;
-        sum -= log(left);
-    }
-    for (int i = 0; i < 3 * it->of->contacts; i++) sum += 0.5 * (it->of->force[i] / it->unit) * (it->of->force[i] / it->unit);
-    return sum;
 }
 
 /* Gradient g and Hessian H by z and, as the last one, t. */
@@ -92,26 +78,21 @@ static void move(barrier *it, const double *step, double by)
     it->t += by * step[it->of->nulls];
 }
 
-/* One step of Newton's method, shortened until the value falls; 0: it cannot */
+/* One step of Newton's method, shortened by its own length, so that it stays within the cones; 0: there is nothing to gain. */
 static int improve(barrier *it)
 {
-    double g[SIZE], H[SIZE * SIZE], step[SIZE], kept[3 * ZD_MAX_SHARES], slope = 0, by = 1;
-    const double before = value_of(it), t = it->t;
+    double g[SIZE], H[SIZE * SIZE], step[SIZE], slope = 0;
     const int n = it->of->nulls + 1;
     differentiate(it, g, H);
     if (zd_cholesky(n, H, H) < n) return 0;
     for (int k = 0; k < n; k++) step[k] = -g[k];
     zd_forward(n, H, step, step);
     zd_backward(n, H, step, step);
-    for (int k = 0; k < n; k++) slope += g[k] * step[k];
-    if (!(-slope > 1e-9)) return 0;
-    memcpy(kept, it->of->force, sizeof kept);
-    for (int i = 0; i < HALVINGS; i++, by /= 2) {
-        move(it, step, by);
-        if (value_of(it) < before + 0.1 * by * slope) return 1;
-        memcpy(it->of->force, kept, sizeof kept), it->t = t;
-    }
-    return 0;
+    for (int k = 0; k < n; k++) slope -= g[k] * step[k];
+    const double length = sqrt(fmax(0, slope));
+    if (!(slope > 1e-9)) return 0;
+    move(it, step, length < 0.25 ? 1 : 1 / (1 + length));
+    return 1;
 }
 
 void zd_share_find(zd_share *self)
@@ -119,7 +100,7 @@ void zd_share_find(zd_share *self)
     barrier it = {.of = self, .unit = zd_max_abs(3 * self->contacts, self->force), .t = INFINITY};
     if (!(it.unit > 0)) it.unit = 1e-300;
     for (int i = 0; i < self->contacts; i++)
-        it.t = fmin(it.t, coefficient(&it, i) * self->force[3 * i] - hypot(self->force[3 * i + 1], self->force[3 * i + 2]));
+        it.t = fmin(it.t, coefficient(&it, i) * self->force[3 * i] - zd_length_of_two(self->force[3 * i + 1], self->force[3 * i + 2]));
     self->margin = it.t;
     it.t = fmin(it.t, 0) - it.unit;
     it.mu = it.unit;

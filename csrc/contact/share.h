@@ -1,6 +1,11 @@
 /* Forces of several contacts that are closed and stick together, which are not determined: whether any of them hold. */
 #pragma once
 
+#include <math.h>
+
+/* sqrt(x^2 + y^2) */
+static inline double zd_length_of_two(double x, double y) { return sqrt(x * x + y * y); }
+
 enum { ZD_MAX_SHARES = 24, ZD_MAX_NULLS = 24 };
 
 typedef struct zd_share {

@@ -76,7 +76,7 @@ static void classify_friction(zd_contacts *it)
 {
     for (int k = it->normals; k < it->count; k++) {
         const int i = k - (it->row[k].pair == 2), is_pair = it->row[k].pair != 0;      /* its first row */
-        const double speed = is_pair ? hypot(it->w[i], it->w[i + 1]) : fabs(it->w[k]);
+        const double speed = is_pair ? zd_length_of_two(it->w[i], it->w[i + 1]) : fabs(it->w[k]);
         const int is_still = speed <= fmax(STILL * zd_rest_speed(it, k), it->missed[k]);
         it->row[k].slides = is_still ? it->ends[k] : is_pair || it->w[k] > 0 ? ZD_SLIDES_FORWARD : ZD_SLIDES_BACKWARD;
         it->row[k].seeks = (signed char)(is_pair && is_still && it->ends[k] != ZD_OPEN);

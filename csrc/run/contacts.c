@@ -58,7 +58,7 @@ static signed char find_pair_end(const zd_contacts *it, int g, double *direction
         }
     }
     if (!is_any || !f) return ZD_OPEN;
-    const double size = hypot(f[0], f[1]);
+    const double size = zd_length_of_two(f[0], f[1]);
     for (int i = 0; i < 2; i++) direction[i] = size > 0 ? f[i] / size : 0;
     return ZD_SLIDES_FORWARD;
 }
