@@ -15,8 +15,8 @@ from mechanisms.plain_space import Plain
 from mechanisms.test_compiled import TERM_ROUNDING, differences
 from mechanisms.test_files_of_space import everything
 from support import called, refused
-from zerodrift._private.gateway.mechanisms.space import joint_kinds
 from zerodrift.mechanisms.elements.immutable import amend
+from zerodrift.mechanisms.elements.space_joints import JOINTS
 from zerodrift.mechanisms.equations import generated_code
 from zerodrift.symbolics.compile import shared_library
 from zerodrift.symbolics.emit import closed_form_writer
@@ -58,7 +58,7 @@ def assert_same_terms(m):
 
 def test_every_kind_of_joint_is_among_them():
     kinds = {joint.kind for joint in everything()._elements.values() if hasattr(joint, "frames")}
-    assert kinds >= set(joint_kinds())
+    assert kinds >= set(JOINTS)
 
 
 @pytest.mark.parametrize("name", MADE)
