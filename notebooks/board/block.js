@@ -5,7 +5,7 @@ import {angleOf, bodyOf, drawnPlace, isJoint, lengthOf, localOf, ofKind, swingOf
 const SECTIONS = ["gravity", "bodies", "joints", "quantities", "terms", "relations", "forces", "measures", "groups", "laws", "instructions", "results", "numbers",
                   "splines", "knots", "start", "outputs", "inputs", "settings", "methods", "names", "parameters", "effects", "products", "events",
                   "actions", "texts"];
-const VERSION = 6;
+const VERSION = 7;
 // Numbers of kinds in the tables of the core.
 const JOINT = {revolute: 0, prismatic: 1, weld: 2, slot: 4};
 const QUANTITY = {angle: 2, along: 3, distance: 5, ground: 6};

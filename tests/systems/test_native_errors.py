@@ -52,7 +52,7 @@ def with_user_data(library):
 
 
 WRONG = [
-    (another_version, ValueError, r"zd_interface_version of .*newer\.so is 12, and this core has version 11 of the "),
+    (another_version, ValueError, r"zd_interface_version of .*newer\.so is 13, and this core has version 12 of the "),
     (no_version, ValueError, r"versionless\.so must declare its version of the interface by the line"),
     (no_library, ValueError, r"text\.so must be a shared library that can be loaded here: "),
     (lambda lib: pendulum(lib.parent / "none.so"), FileNotFoundError, r"the shared library must exist: .*none\.so"),
@@ -63,11 +63,11 @@ WRONG = [
     (other_ctypes, TypeError, r"the ctypes function is double \(double\), and must be int \(const void \*data, int want"),
     (other_cffi, TypeError, r"the cffi function is double \(double\), and must be int"),
     (with_user_data, ValueError, "the LowLevelCallable must have no user_data"),
-    (lambda lib: zd.native(address(lib), 2, **GIVEN), TypeError, "version is needed with an address: .* has 11"),
-    (lambda lib: zd.native(address(lib), 2, version=12, **GIVEN), ValueError, "version is 12, and this core has version 11"),
-    (lambda lib: zd.native(0, 2, version=11, **GIVEN), ValueError, "function must be the address of a function, not 0"),
+    (lambda lib: zd.native(address(lib), 2, **GIVEN), TypeError, "version is needed with an address: .* has 12"),
+    (lambda lib: zd.native(address(lib), 2, version=13, **GIVEN), ValueError, "version is 13, and this core has version 12"),
+    (lambda lib: zd.native(0, 2, version=12, **GIVEN), ValueError, "function must be the address of a function, not 0"),
     (lambda lib: zd.native(abs, 2, **GIVEN), TypeError, "function must be the path of a shared library, an address"),
-    (lambda lib: zd.native(address(lib), 2, version=11, symbol="f", **GIVEN), TypeError, "symbol names a function of a"),
+    (lambda lib: zd.native(address(lib), 2, version=12, symbol="f", **GIVEN), TypeError, "symbol names a function of a"),
     (lambda lib: pendulum(lib, terms=None), TypeError, "terms is needed with coordinates"),
     (lambda lib: pendulum(lib, terms=["M", "F"]), ValueError, "terms must be one of 'A', 'M', .*, not 'F'"),
     (lambda lib: pendulum(lib, terms=["M", "f", "C"]), ValueError, "terms must have Phi, xi, with 1 holonomic of 1"),
