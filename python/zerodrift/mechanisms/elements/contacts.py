@@ -11,7 +11,7 @@ from .bodies import Point
 from .frames import Circle, Plane, Sphere, perpendicular
 from .immutable import Fixed
 from .joints import Joint
-from .measures import Measure, scalar
+from .measures import Measure, VectorMeasure, scalar
 from .numbers import AS_GIVEN, Numbers
 from .space_joints import SpaceJoint
 from .switches import Switch, friction_with, of_friction
@@ -72,6 +72,7 @@ class Contact:
     kind = "contact"
     takes: tuple[str, ...] = ("radius", "shape", "restitution", "friction")
     name: str
+    force: VectorMeasure
     dimension: int
     opposite = 0        # index of the first switch of the part on the opposite side, relative to its own
     sign = 1            # of its gap
