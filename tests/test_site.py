@@ -130,7 +130,7 @@ def test_the_leg_of_the_first_page_walks_and_is_dragged(site, tmp_path):
 def test_films_of_cards_play_when_pointed_at_and_are_reached_by_keys(site, tmp_path):
     with Browser(tmp_path / "profile") as browser:
         browser.open((site / "generated" / "gallery.html").as_uri(), still=False)
-        assert browser.evaluate("document.querySelectorAll('.films a iframe[loading=lazy]').length") == 40
+        assert browser.evaluate("document.querySelectorAll('.films a iframe[loading=lazy]').length") == 41
         assert browser.evaluate("""[...document.querySelectorAll(".films a")].every((each) => { each.focus();
             return document.activeElement === each && each.querySelector("iframe").title.length > 20; })""")
         heard = browser.evaluate("""(() => { const card = document.querySelector(".films a"), heard = [];
