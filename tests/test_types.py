@@ -77,6 +77,15 @@ def test_the_signature_of_simulate_is_read_in_ten_lines():
     assert len(str(inspect.signature(zd.simulate))) < 800       # ten lines of a terminal, in `help`
 
 
+@pytest.fixture(autouse=True, scope="module")
+def own_cache(tmp_path_factory):
+    """Files that jedi keeps, apart from those of other processes, which may be half written."""
+    kept, jedi.settings.cache_directory = jedi.settings.cache_directory, tmp_path_factory.mktemp("jedi")
+    yield
+    jedi.settings.cache_directory = kept
+
+
+
 @pytest.mark.parametrize("written", COMPLETIONS)
 def test_an_editor_completes_what_a_user_writes(written):
     found = {each.name for each in jedi.Script(CODE + written).complete()}

@@ -1,10 +1,11 @@
-/* Sliding friction of two rows has a direction e that is given, or found by Newton's method from e x w(e) = 0. Sweeps of the projected
- * Gauss-Seidel method over all rows tell where it begins. */
+/* Sliding friction in two directions acts against the unit vector e of the slip, which is given, or found by Newton's method from
+ * e x w(e) = 0; it starts from the result of sweeps of the projected Gauss-Seidel method over all rows. */
 #include "case.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "../linalg/roots.h"
 #include "../linalg/small.h"
 #include "equations.h"
 
@@ -55,22 +56,22 @@ int zd_case_normals_depend(const zd_case *it)
     return find_normal_nulls(it, normals, row, null) > 0;
 }
 
-/* The least normal forces where they are not determined: sum W_kk z_k^2 = min. With null vectors n of their W,
- * n . (W_kk z_k) = 0 is added to equations that depend on others. */
-static void choose_least(zd_case *it)
+/* Normal forces that are not determined have the minimum norm, sum W_kk z_k^2. With null vectors n of their W, n . (W_kk z_k) = 0 is added
+ * to dependent equations. */
+static void add_min_norm(zd_case *it)
 {
     const zd_contact_problem *of = it->of;
     double null[ZD_MAX_CANDIDATES * ZD_MAX_CANDIDATES];
     int normals = 0;
     while (normals < it->count && of->row[it->active[normals]].normal < 0) normals++;
-    it->least = find_normal_nulls(it, normals, it->active, null);
-    for (const double *n = null; n < null + it->least * normals; n += normals)
+    it->free_normals = find_normal_nulls(it, normals, it->active, null);
+    for (const double *n = null; n < null + it->free_normals * normals; n += normals)
         for (int a = 0; a < normals; a++)
             for (int c = 0; c < normals; c++)
                 it->A[a * it->count + c] += n[a] * n[c] * of->W[it->active[c] * (of->rows + 1)];
 }
 
-/* The same with given directions. */
+/* z and w with the present directions; 0: there are none. */
 static int solve_with_directions(zd_case *it)
 {
     const zd_contact_problem *of = it->of;
@@ -93,9 +94,9 @@ static int solve_with_directions(zd_case *it)
             else it->x[a] -= W * force;
         }
     }
-    it->least = 0;
-    if (it->of->takes_least) choose_least(it);
-    if (!zd_equations_solve(count, it->A, it->x, it->column, &it->rank)) return 0;
+    it->free_normals = 0;
+    if (it->of->is_min_norm) add_min_norm(it);
+    if (!zd_equations_eliminate(count, it->A, it->x, it->column, &it->rank)) return 0;
     memset(it->z, 0, n * sizeof *it->z);
     for (int a = 0; a < count; a++) it->z[it->active[it->column[a]]] = it->x[a];
     for (int s = 0; s < n; s++)
@@ -107,32 +108,32 @@ static int solve_with_directions(zd_case *it)
     return 1;
 }
 
-/* ---- friction of two rows ---- */
+/* ---- friction in two directions ---- */
 
-int zd_case_seeks_direction(const zd_case *it, int i)
+int zd_case_has_unknown_direction(const zd_case *it, int i)
 {
     const zd_candidate *row = it->of->row + i;
-    return row->pair == 1 && zd_slides(it->state[i]) && (row->slides == ZD_OPEN || row->seeks);
+    return row->pair == 1 && zd_slides(it->state[i]) && (row->slides == ZD_OPEN || row->is_unknown);
 }
 
 /* Relative velocity or acceleration of a row at z. */
 static double find_w(const zd_case *it, int i) { return it->of->b[i] + zd_dot(it->of->rows, it->of->W + (size_t)i * it->of->rows, it->z); }
 
-/* One sweep of the projected Gauss-Seidel method over friction of two rows. */
+/* One sweep of the projected Gauss-Seidel method over a pair of rows. */
 static void sweep_pair(zd_case *it, int i)
 {
     const zd_contact_problem *of = it->of;
     const zd_candidate *row = of->row + i;
-    const int n = of->rows, is_given = row->slides != ZD_OPEN && !row->seeks;
+    const int n = of->rows, is_given = row->slides != ZD_OPEN && !row->is_unknown;
     const double bound = slip_bound(it, i, 1), scale = of->W[i * n + i] + of->W[(i + 1) * n + i + 1];
     const double w[] = {find_w(it, i), find_w(it, i + 1)};
     double size = 1;
     for (int k = 0; k < 2; k++) it->z[i + k] = is_given ? -bound * of->direction[i + k] : it->z[i + k] - w[k] / scale;
-    if (!is_given) size = zd_length_of_two(it->z[i], it->z[i + 1]) / bound;
+    if (!is_given) size = zd_hypotenuse(it->z[i], it->z[i + 1]) / bound;
     for (int k = 0; k < 2 && size > 1; k++) it->z[i + k] = bound > 0 ? it->z[i + k] / size : 0;
 }
 
-void zd_case_guess_directions(zd_case *it)
+void zd_case_estimate_directions(zd_case *it)
 {
     const zd_contact_problem *of = it->of;
     zd_clear(of->rows, it->z);
@@ -143,20 +144,20 @@ void zd_case_guess_directions(zd_case *it)
             else if (of->row[i].pair == 1) sweep_pair(it, i);
         }
     for (int i = 0; i < of->rows; i++) {
-        const double size = of->row[i].pair == 1 ? zd_length_of_two(it->z[i], it->z[i + 1]) : 0;
+        const double size = of->row[i].pair == 1 ? zd_hypotenuse(it->z[i], it->z[i + 1]) : 0;
         if (!(size > 0) || of->direction[i] != 0 || of->direction[i + 1] != 0) continue;
         of->direction[i] = -it->z[i] / size, of->direction[i + 1] = -it->z[i + 1] / size;
     }
 }
 
-/* Directions to begin with: given ones, or those of b. */
+/* Initial directions: given ones, or those of b. */
 static void begin_directions(zd_case *it)
 {
     const zd_contact_problem *of = it->of;
     for (int i = 0; i < of->rows; i++) {
         it->e[i] = of->row[i].pair ? of->direction[i] : zd_slip_sign(it->state[i]);
         if (of->row[i].pair != 2 || it->e[i - 1] != 0 || it->e[i] != 0) continue;
-        const double size = zd_length_of_two(of->b[i - 1], of->b[i]);
+        const double size = zd_hypotenuse(of->b[i - 1], of->b[i]);
         it->e[i - 1] = size > 0 ? of->b[i - 1] / size : 1;
         it->e[i] = size > 0 ? of->b[i] / size : 0;
     }
@@ -169,35 +170,35 @@ static void turn(double *e, double angle)
     e[1] = s * x + c * e[1];
 }
 
-/* r (count,) <- e x w of sought directions */
-static int find_residuals(zd_case *it, int count, const int *sought, double *r)
+/* r (count,) <- e x w of unknown directions */
+static int find_residuals(zd_case *it, int count, const int *unknown, double *r)
 {
     if (!solve_with_directions(it)) return 0;
-    for (int k = 0; k < count; k++) r[k] = it->e[sought[k]] * it->w[sought[k] + 1] - it->e[sought[k] + 1] * it->w[sought[k]];
+    for (int k = 0; k < count; k++) r[k] = it->e[unknown[k]] * it->w[unknown[k] + 1] - it->e[unknown[k] + 1] * it->w[unknown[k]];
     return 1;
 }
 
 int zd_case_solve(zd_case *it)
 {
-    int sought[MAX_PAIRS], count = 0;
+    int unknown[MAX_PAIRS], count = 0;
     double r[MAX_PAIRS], turned[MAX_PAIRS], J[MAX_PAIRS * MAX_PAIRS];
     begin_directions(it);
     for (int i = 0; i < it->of->rows; i++)
-        if (zd_case_seeks_direction(it, i)) sought[count++] = i;
+        if (zd_case_has_unknown_direction(it, i)) unknown[count++] = i;
     for (int n = 0; n < ITERATIONS; n++) {
         double largest = 0;
-        if (!find_residuals(it, count, sought, r)) return 0;
+        if (!find_residuals(it, count, unknown, r)) return 0;
         for (int k = 0; k < count; k++) largest = fmax(largest, fabs(r[k]));
         if (!(largest > DIRECTION * it->size)) return 1;
         for (int j = 0; j < count; j++) {
-            turn(it->e + sought[j], TURN);
-            if (!find_residuals(it, count, sought, turned)) return 0;
-            turn(it->e + sought[j], -TURN);
+            turn(it->e + unknown[j], TURN);
+            if (!find_residuals(it, count, unknown, turned)) return 0;
+            turn(it->e + unknown[j], -TURN);
             for (int k = 0; k < count; k++) J[k * count + j] = (turned[k] - r[k]) / TURN;
         }
         for (int k = 0; k < count; k++) r[k] = -r[k];
-        zd_problem_equations(count, J, r);
-        for (int k = 0; k < count; k++) turn(it->e + sought[k], fmax(-0.5, fmin(0.5, r[k])));
+        zd_equations_solve(count, J, r);
+        for (int k = 0; k < count; k++) turn(it->e + unknown[k], fmax(-0.5, fmin(0.5, r[k])));
     }
     return 0;
 }
@@ -212,29 +213,26 @@ int zd_case_has_sliding_pairs(const zd_case *it)
 int zd_case_pairs_stick(zd_case *it)
 {
     const zd_contact_problem *of = it->of;
-    int place[ZD_MAX_CANDIDATES], row[ZD_MAX_CANDIDATES], rows = 0;     /* force in the share, and row of the problem */
     const int with_normals = !zd_case_has_sliding_pairs(it);
-    zd_share share = {.contacts = 0};
-    double K[ZD_MAX_CANDIDATES * ZD_MAX_CANDIDATES], null[ZD_MAX_CANDIDATES * ZD_MAX_CANDIDATES];
+    int row[ZD_MAX_CANDIDATES], rows = 0, pairs = 0;
+    double K[ZD_MAX_CANDIDATES * ZD_MAX_CANDIDATES];
+    zd_distribution forces = {.contacts = 0};
     for (int i = 0; i < of->rows; i++) {
         if (of->row[i].normal >= 0 || it->state[i] != ZD_CLOSED) continue;
         int k = i + 1;      /* its friction */
         while (k < of->rows && (of->row[k].pair != 1 || of->row[k].normal != i + 1 || it->state[k] != ZD_CLOSED)) k++;
-        if (!with_normals && k == of->rows) continue;
-        const int at = 3 * share.contacts;
-        share.force[at] = it->z[i];
-        if (with_normals) place[rows] = at, row[rows++] = i;
-        for (int j = 0; k < of->rows && j < 2; j++) share.force[at + 1 + j] = it->z[k + j], place[rows] = at + 1 + j, row[rows++] = k + j;
-        share.friction[share.contacts++] = k < of->rows ? of->row[k].bound[0] : 0;
+        const int sticks = k < of->rows;
+        if (!with_normals && !sticks) continue;
+        zd_distribution_add(&forces, it->z[i], with_normals, sticks ? it->z + k : NULL, sticks ? of->row[k].bound[0] : 0);
+        if (with_normals) row[rows++] = i;
+        for (int j = 0; j < 2 * sticks; j++) row[rows++] = k + j;
+        pairs += sticks;
     }
-    if (rows <= (with_normals ? share.contacts : 0)) return 1;
+    if (!pairs) return 1;
     for (int i = 0; i < rows; i++)
         for (int j = 0; j < rows; j++) K[i * rows + j] = of->W[row[i] * of->rows + row[j]];
-    it->shared = share.nulls = zd_equations_null_space(rows, K, null);
-    for (int k = 0; k < share.nulls; k++)
-        for (int i = 0; i < rows; i++) share.null[k * 3 * share.contacts + place[i]] = null[k * rows + i];
-    zd_share_find(&share);
-    for (int i = 0; i < rows; i++) it->z[row[i]] = share.force[place[i]];
-    return share.margin >= -ZD_SIGN_SHARE * zd_max_abs(3 * share.contacts, share.force);
+    zd_distribution_find(&forces, K);
+    it->free_forces = forces.nulls;
+    for (int i = 0; i < rows; i++) it->z[row[i]] = forces.force[forces.component[i]];
+    return forces.margin >= -ZD_SIGN_SHARE * zd_max_abs(3 * forces.contacts, forces.force);
 }
-

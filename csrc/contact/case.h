@@ -14,27 +14,27 @@ typedef struct zd_case {
     double *e;              /* (rows,) directions of slip */
     double size;            /* largest |b| */
     int found;
-    int shared;             /* number of unknowns of friction of two rows that are not determined */
-    int least;              /* and of normal forces, of which the least are taken */
+    int free_forces;        /* number of unknowns of contacts that stick that are not determined */
+    int free_normals;       /* number of normal forces that are not determined, which have the minimum norm */
     int slip_sign;          /* 1: sliding friction must move; -1: it may be at rest, if no other solution exists */
-    int depends;            /* true if normal forces may not be determined, of which the least are taken */
-    double effort;          /* sum W_kk z_k^2 of the normal forces of the solution that has been found */
+    int normals_depend;     /* true if normal rows depend on each other */
+    double norm;            /* sum W_kk z_k^2 of the normal forces of the solution that has been found */
     int is_undetermined;    /* true if a case would be a solution, if the normal forces that bound its friction were determined */
 } zd_case;
 
-/* First guesses of directions that are sought, in the problem. */
-void zd_case_guess_directions(zd_case *self);
-/* True if normal rows depend on others. */
+/* Estimates of unknown directions of slip, in the problem. */
+void zd_case_estimate_directions(zd_case *self);
+/* True if normal rows depend on each other. */
 int zd_case_normals_depend(const zd_case *self);
 /* z and w of the case, with its directions; 0: it has no solution. */
 int zd_case_solve(zd_case *self);
-/* True if friction of two rows that sticks is within its bounds, in any distribution of forces that are not determined: also of normal ones,
- * if no sliding depends on these. z <- one that shows it. */
+/* True if pairs of rows that stick are within their bounds in some distribution of forces that are not determined: also of normal ones, if
+ * no sliding depends on these. z <- such a distribution. */
 int zd_case_pairs_stick(zd_case *self);
 int zd_case_has_pairs(const zd_case *self);
 int zd_case_has_sliding_pairs(const zd_case *self);
-/* True if friction i of two rows slides in a direction that is sought. */
-int zd_case_seeks_direction(const zd_case *self, int i);
+/* True if pair i slides in an unknown direction. */
+int zd_case_has_unknown_direction(const zd_case *self, int i);
 int zd_case_sticks_with_another(const zd_case *self, int i);
 /* Bound of static friction of a row, with those of the rows that stick with it. */
 double zd_case_total_bound(const zd_case *self, int i);

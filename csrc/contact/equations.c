@@ -30,7 +30,7 @@ static void choose_pivot(int n, double *A, double *x, int *column, int k)
     column[k] = column[pj], column[pj] = moved;
 }
 
-int zd_equations_solve(int n, double *A, double *x, int *column, int *rank)
+int zd_equations_eliminate(int n, double *A, double *x, int *column, int *rank)
 {
     double contradiction = 0, size = 0;
     for (int i = 0; i < n; i++) column[i] = i, size = fmax(size, fabs(x[i]));
@@ -56,7 +56,7 @@ int zd_equations_null_space(int n, double *A, double *null)
 {
     int column[ZD_MAX_CANDIDATES], rank;
     double x[ZD_MAX_CANDIDATES] = {0};
-    zd_equations_solve(n, A, x, column, &rank);
+    zd_equations_eliminate(n, A, x, column, &rank);
     for (int j = rank; j < n; j++, null += n) {
         memset(x, 0, sizeof x);
         memset(null, 0, n * sizeof *null);
@@ -71,11 +71,11 @@ int zd_equations_null_space(int n, double *A, double *null)
     return n - rank;
 }
 
-int zd_problem_equations(int n, double *A, double *x)
+int zd_equations_solve(int n, double *A, double *x)
 {
     int column[ZD_MAX_CANDIDATES], rank;
     double solution[ZD_MAX_CANDIDATES];
-    const int is_solved = zd_equations_solve(n, A, x, column, &rank);
+    const int is_solved = zd_equations_eliminate(n, A, x, column, &rank);
     for (int i = 0; i < n; i++) solution[column[i]] = x[i];
     zd_copy_all(n, solution, x);
     return is_solved;

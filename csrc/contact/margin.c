@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "equations.h"
+#include "../linalg/roots.h"
 #include "phase_system.h"
 
 const double *zd_point_multipliers(const zd_point *point)
@@ -27,7 +27,7 @@ static double find_total_bound(const zd_phase_system *self, int index, const dou
     return total;
 }
 
-/* Friction of two rows that sticks on a normal group; -1: none does. */
+/* Friction in two directions that sticks at a normal group; -1: none. */
 static int find_sticking(const zd_phase_system *self, int normal)
 {
     for (int g = 0; g < self->full->groups; g++) {
@@ -37,67 +37,53 @@ static int find_sticking(const zd_phase_system *self, int normal)
     return -1;
 }
 
-/* Adds a row of the full system to those of the share, as its force at `at`. */
-static void add_row(int at, int row, int *place, int *rows, int *count)
+/* Products of rows of the full system, each times its sign. */
+static void find_products(const zd_phase_system *self, int count, const int *rows, const double *sign, double *K)
 {
-    if (*count == ZD_MAX_NULLS) return;
-    place[*count] = at;
-    rows[(*count)++] = row;
-}
-
-static void find_nulls(const zd_phase_system *self, int count, const int *place, const int *rows, zd_share *share)
-{
-    double K[ZD_MAX_NULLS * ZD_MAX_NULLS], null[ZD_MAX_NULLS * ZD_MAX_NULLS];
     for (int i = 0; i < count; i++) {
         const zd_row_of_C own = zd_phase_row(self, rows[i]);
         zd_row_expand(&own, self->full->nv, self->known->row);
         for (int j = 0; j < count; j++) {
             const zd_row_of_C other = zd_phase_row(self, rows[j]);
-            K[i * count + j] = zd_row_times(&other, self->known->row);
+            K[i * count + j] = sign[i] * sign[j] * zd_row_times(&other, self->known->row);
         }
     }
-    share->nulls = zd_equations_null_space(count, K, null);
-    for (int k = 0; k < share->nulls; k++)
-        for (int i = 0; i < count; i++) share->null[k * 3 * share->contacts + place[i]] = null[k * count + i];
 }
 
-const zd_share *zd_phase_share(const zd_phase_system *self, const double *lambda)
+const zd_distribution *zd_phase_distribution(const zd_phase_system *self, const double *lambda)
 {
     const zd_system *full = self->full;
+    const int with_normals = !self->has_sliding_pairs;
     zd_known_terms *known = self->known;
-    zd_share *share = known->share;
-    int place[ZD_MAX_NULLS] = {0}, rows[ZD_MAX_NULLS] = {0}, count = 0;
-    if (known->has_share) return share;
-    memset(share, 0, sizeof *share);
-    for (int g = 0; g < full->groups && share->contacts < ZD_MAX_SHARES; g++) {
-        if (full->group[g].kind != ZD_ONE_SIDED || self->state[g] != ZD_CLOSED) continue;
-        const int friction = find_sticking(self, g), at = 3 * share->contacts;
-        if (self->slides_in_planes && friction < 0) continue;
-        share->force[at] = -full->group[g].sign * lambda[full->group[g].first];
-        if (!self->slides_in_planes) add_row(at, full->group[g].first, place, rows, &count);
-        for (int i = 0; friction >= 0 && i < 2; i++) {
-            share->force[at + 1 + i] = lambda[full->group[friction].first + i];
-            add_row(at + 1 + i, full->group[friction].first + i, place, rows, &count);
-        }
-        share->friction[share->contacts] = friction < 0 ? 0 : full->group[friction].friction[0];
-        known->normal[share->contacts] = g;
-        known->friction[share->contacts++] = friction;
+    zd_distribution *forces = known->distribution;
+    int rows[ZD_MAX_FREE] = {0}, count = 0;
+    double sign[ZD_MAX_FREE] = {0}, K[ZD_MAX_FREE * ZD_MAX_FREE];
+    if (known->has_distribution) return forces;
+    forces->contacts = forces->components = 0;
+    for (int g = 0; g < full->groups; g++) {
+        const zd_group *normal = full->group + g;
+        if (normal->kind != ZD_ONE_SIDED || self->state[g] != ZD_CLOSED) continue;
+        const int friction = find_sticking(self, g), sticks = friction >= 0, contact = forces->contacts;
+        if (!with_normals && !sticks) continue;
+        zd_distribution_add(forces, -normal->sign * lambda[normal->first], with_normals,
+                            sticks ? lambda + full->group[friction].first : NULL, sticks ? full->group[friction].friction[0] : 0);
+        if (forces->contacts == contact) break;
+        known->normal[contact] = g, known->friction[contact] = friction;
+        if (with_normals) sign[count] = -normal->sign, rows[count++] = normal->first;
+        for (int i = 0; i < 2 * sticks; i++) sign[count] = 1, rows[count++] = full->group[friction].first + i;
     }
-    find_nulls(self, count, place, rows, share);
-    for (int i = 0; i < count; i++)         /* normal forces are those against the gap */
-        for (int k = 0; place[i] % 3 == 0 && k < share->nulls; k++)
-            share->null[k * 3 * share->contacts + place[i]] *= -full->group[known->normal[place[i] / 3]].sign;
-    zd_share_find(share);
-    known->has_share = 1;
-    return share;
+    find_products(self, count, rows, sign, K);
+    zd_distribution_find(forces, K);
+    known->has_distribution = 1;
+    return forces;
 }
 
-/* Normal force of a contact in the share; `otherwise` if it is none of it. */
-static double find_shared_normal(const zd_phase_system *self, int index, const double *lambda, double otherwise)
+/* Normal force of a contact in the distribution; `otherwise` if it has no part in it. */
+static double find_distributed_normal(const zd_phase_system *self, int index, const double *lambda, double otherwise)
 {
-    const zd_share *share = zd_phase_share(self, lambda);
-    for (int i = 0; i < share->contacts; i++)
-        if (self->known->normal[i] == index) return share->force[3 * i];
+    const zd_distribution *forces = zd_phase_distribution(self, lambda);
+    for (int i = 0; i < forces->contacts; i++)
+        if (self->known->normal[i] == index) return forces->force[3 * i];
     return otherwise;
 }
 
@@ -113,7 +99,7 @@ static double find_normal_margin(const zd_phase_system *self, int index, const d
     switch (self->state[index]) {
     case ZD_CLOSED: {
         const double N = -group->sign * lambda[group->first];
-        return fmin(within, self->is_shared && !self->slides_in_planes ? find_shared_normal(self, index, lambda, N) : N);
+        return fmin(within, self->is_indeterminate && !self->has_sliding_pairs ? find_distributed_normal(self, index, lambda, N) : N);
     }
     case ZD_IDLE: return fmin(within, gap + ZD_TOUCHING * (group->scale > 0 ? group->scale : self->full->length));
     case ZD_BEHIND: return group->opposite ? within : fmin(within, -gap);
@@ -121,14 +107,14 @@ static double find_normal_margin(const zd_phase_system *self, int index, const d
     }
 }
 
-/* Bound of static friction minus its force; contacts that share a load reach their bounds at once. */
+/* Bound of static friction minus its force; of forces that are not determined, that of their best distribution. */
 static double find_sticking_margin(const zd_phase_system *self, int index, const double *lambda)
 {
     const zd_group *group = self->full->group + index;
     if (group->rows == 1) return find_total_bound(self, index, lambda) - fabs(lambda[group->first]);
     const double bound = zd_friction_bound(self->full, index, 0, lambda);
-    if (!self->is_shared) return bound - zd_length_of_two(lambda[group->first], lambda[group->first + 1]);
-    return zd_phase_share(self, lambda)->margin;
+    if (!self->is_indeterminate) return bound - zd_hypotenuse(lambda[group->first], lambda[group->first + 1]);
+    return zd_phase_distribution(self, lambda)->margin;
 }
 
 /* Slip velocity along the direction of slip, which changes its sign where friction begins to stick. */
@@ -151,15 +137,15 @@ int zd_phase_margin(zd_phase_system *self, const zd_point *point, int index, dou
     const double *lambda = state == ZD_CLOSED ? zd_point_multipliers(point) : NULL;
     int status = ZD_DONE;
     if (is_normal) {
-        if (state == ZD_CLOSED && self->is_shared) status = zd_phase_know(self, ZD_C | ZD_PHI, t, p, v);
+        if (state == ZD_CLOSED && self->is_indeterminate) status = zd_phase_need(self, ZD_C | ZD_PHI, t, p, v);
         else if (state != ZD_CLOSED || group->range)
-            status = zd_phase_know(self, group->kind == ZD_ONE_WAY ? ZD_C | ZD_PHI_T : ZD_PHI, t, p, v);
+            status = zd_phase_need(self, group->kind == ZD_ONE_WAY ? ZD_C | ZD_PHI_T : ZD_PHI, t, p, v);
         *margin = find_normal_margin(self, index, v, lambda);
     } else if (state == ZD_CLOSED) {
-        if (self->is_shared && group->rows == 2) status = zd_phase_know(self, ZD_C, t, p, v);
+        if (self->is_indeterminate && group->rows == 2) status = zd_phase_need(self, ZD_C, t, p, v);
         *margin = find_sticking_margin(self, index, lambda);
     } else {
-        status = zd_phase_know(self, ZD_C | ZD_PHI_T, t, p, v);
+        status = zd_phase_need(self, ZD_C | ZD_PHI_T, t, p, v);
         *margin = find_slip_margin(self, index, v);
     }
     *margin += self->bias[index];

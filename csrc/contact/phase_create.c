@@ -90,7 +90,7 @@ static void fill_reading(zd_phase_system *self)
         const zd_group *group = full->group + g;
         if (group->kind != ZD_FRICTION || !zd_slides(self->state[g])) continue;
         zd_sliding *it = self->sliding + self->slidings++;
-        self->slides_in_planes |= group->rows == 2;
+        self->has_sliding_pairs |= group->rows == 2;
         *it = (zd_sliding){g, -1, all->count, 0};
         if (!is_sliding_with_load(group, self->state[g])) continue;
         it->input = all->functions;
@@ -117,13 +117,6 @@ static void create_reading(zd_arena *arena, zd_phase_system *self)
     if (arena->base) fill_reading(self);
 }
 
-static int has_pairs(const zd_system *full)
-{
-    for (int g = 0; g < full->groups; g++)
-        if (full->group[g].kind == ZD_FRICTION && full->group[g].rows == 2) return 1;
-    return 0;
-}
-
 zd_phase_system *zd_phase_system_create(zd_arena *arena, const zd_system *full, const signed char *state)
 {
     const int m = zd_constraints(full), groups = full->groups;
@@ -140,14 +133,14 @@ zd_phase_system *zd_phase_system_create(zd_arena *arena, const zd_system *full, 
     self->bias = zd_arena_doubles(arena, groups);
     self->lambda = zd_arena_doubles(arena, m);
     self->direction = zd_arena_doubles(arena, 2 * (size_t)groups);
-    self->speed = zd_arena_doubles(arena, groups);
-    self->slow = ZD_SLOW * (full->length > 0 ? full->length : 1);
+    self->slip_speed = zd_arena_doubles(arena, groups);
+    self->slow_slip = ZD_SLOW_SLIP * (full->length > 0 ? full->length : 1);
     zd_known_terms known = {.p = zd_arena_doubles(arena, full->nq), .v = zd_arena_doubles(arena, full->nv),
                             .row = zd_arena_doubles(arena, full->nv)};
-    if (has_pairs(full)) {
-        known.share = zd_arena_bytes(arena, sizeof *known.share);
-        known.normal = zd_arena_ints(arena, ZD_MAX_SHARES);
-        known.friction = zd_arena_ints(arena, ZD_MAX_SHARES);
+    if (zd_has_pairs(full)) {
+        known.distribution = zd_arena_bytes(arena, sizeof *known.distribution);
+        known.normal = zd_arena_ints(arena, ZD_MAX_DISTRIBUTED);
+        known.friction = zd_arena_ints(arena, ZD_MAX_DISTRIBUTED);
     }
     self->known = zd_arena_copy(arena, &known, sizeof known);
     self->scratch = zd_arena_doubles(arena, full->scratch + self->size_of_C + full->mh + 2 * (size_t)m);

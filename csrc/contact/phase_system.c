@@ -15,8 +15,10 @@
 #include <math.h>
 #include <string.h>
 
-static const double LEFT = 4;               /* slip in units of the slow one, from which its end is at zero again */
-static const double REVERSED = 1e-6;        /* cosine of two directions of slip, up to which they have reversed */
+#include "../linalg/roots.h"
+
+static const double FAST_SLIP = 4;          /* slip, in units of the slow one, that has left the start of sliding */
+static const double REVERSED_COSINE = 1e-6; /* largest cosine of two directions of slip that have reversed */
 
 /* ---- memory of the full system's constraints ---- */
 
@@ -54,11 +56,11 @@ int zd_phase_evaluate(const zd_phase_system *self, int want, double t, const dou
     const zd_terms own = {.scratch = self->scratch, .inputs = NULL}, terms = terms_in(self, &own);
     const int status = full->evaluate(full->data, (want & full->provides) | ZD_MOVED, t, p, v, &terms);
     if (!status && want & ZD_PHI_T && !(full->provides & ZD_PHI_T)) zd_clear(zd_constraints(full), terms.Phi_t);
-    self->known->terms = self->known->has_share = 0;
+    self->known->terms = self->known->has_distribution = 0;
     return status;
 }
 
-int zd_phase_know(const zd_phase_system *self, int want, double t, const double *p, const double *v)
+int zd_phase_need(const zd_phase_system *self, int want, double t, const double *p, const double *v)
 {
     zd_known_terms *known = self->known;
     const size_t size_p = self->full->nq * sizeof *p, size_v = self->full->nv * sizeof *v;
@@ -94,25 +96,25 @@ static void find_direction(const zd_phase_system *self, double *scratch, int ind
     const double *d = self->direction + 2 * index;
     double s[2];
     slip_in(self, scratch, index, v, s);
-    const double along = s[0] * d[0] + s[1] * d[1], ratio = zd_length_of_two(s[0], s[1]) / (4 * self->slow);
-    const double left = fmax(0, 1 - ratio * ratio), added = self->slow * left * left * left * left - 2 * fmin(0, along);
+    const double along = s[0] * d[0] + s[1] * d[1], ratio = zd_hypotenuse(s[0], s[1]) / (4 * self->slow_slip);
+    const double left = fmax(0, 1 - ratio * ratio), added = self->slow_slip * left * left * left * left - 2 * fmin(0, along);
     for (int i = 0; i < 2; i++) s[i] += added * d[i];
-    const double size = zd_length_of_two(s[0], s[1]);
+    const double size = zd_hypotenuse(s[0], s[1]);
     for (int i = 0; i < 2; i++) e[i] = size > 0 ? s[i] / size : 0;
 }
 
-int zd_phase_turn(const zd_phase_system *self, int is_start, double t, const double *p, const double *v)
+int zd_phase_update_directions(const zd_phase_system *self, int is_start, double t, const double *p, const double *v)
 {
-    for (int g = 0; self->slides_in_planes && g < self->full->groups; g++) {
+    for (int g = 0; self->has_sliding_pairs && g < self->full->groups; g++) {
         if (self->full->group[g].rows != 2 || !zd_slides(self->state[g])) continue;
-        const int status = zd_phase_know(self, ZD_C | ZD_PHI_T, t, p, v);
+        const int status = zd_phase_need(self, ZD_C | ZD_PHI_T, t, p, v);
         if (status) return status;
         double s[2], *d = self->direction + 2 * g;
         zd_phase_slip(self, g, v, s);
-        const double size = zd_length_of_two(s[0], s[1]);
-        if (size <= self->slow || (!is_start && d[0] * s[0] + d[1] * s[1] <= REVERSED * size)) continue;
-        self->speed[g] = size;
-        if (!is_start && size > LEFT * self->slow) self->bias[g] = 0;
+        const double size = zd_hypotenuse(s[0], s[1]);
+        if (size <= self->slow_slip || (!is_start && d[0] * s[0] + d[1] * s[1] <= REVERSED_COSINE * size)) continue;
+        self->slip_speed[g] = size;
+        if (!is_start && size > FAST_SLIP * self->slow_slip) self->bias[g] = 0;
         d[0] = s[0] / size, d[1] = s[1] / size;
     }
     return ZD_DONE;
@@ -181,7 +183,7 @@ static int evaluate(const void *data, int want, double t, const double *p, const
     const zd_system *full = self->full;
     const zd_terms terms = terms_in(self, out);
     const int is_sliding = self->slidings && (want & (ZD_FORCE | ZD_POWER));
-    const int all = want | (!is_sliding ? 0 : self->slides_in_planes ? ZD_C | ZD_PHI_T : ZD_C);
+    const int all = want | (!is_sliding ? 0 : self->has_sliding_pairs ? ZD_C | ZD_PHI_T : ZD_C);
     const int status = full->evaluate(full->data, all & (full->provides | ZD_MOVED), t, p, v, &terms);
     if (status) return status;
     if (all & ZD_PHI_T && !(full->provides & ZD_PHI_T)) zd_clear(zd_constraints(full), terms.Phi_t);
@@ -243,7 +245,7 @@ static void name_constraint(const void *names, int row, char *to, int size)
 void zd_phase_expand(const zd_phase_system *self, double t, const double *p, const double *v, const double *lambda, const double *u,
                      double *all)
 {
-    const int status = self->slides_in_planes ? zd_phase_know(self, ZD_C | ZD_PHI_T, t, p, v) : ZD_DONE;
+    const int status = self->has_sliding_pairs ? zd_phase_need(self, ZD_C | ZD_PHI_T, t, p, v) : ZD_DONE;
     for (int k = 0; k < zd_constraints(self->full); k++) all[k] = self->row_here[k] < 0 ? 0 : lambda[self->row_here[k]];
     for (const zd_sliding *it = self->sliding; it < self->sliding + self->slidings; it++) {
         const zd_group *group = self->full->group + it->group;

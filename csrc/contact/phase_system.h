@@ -2,16 +2,16 @@
 #pragma once
 
 #include "../point/point.h"
-#include "share.h"
+#include "distribution.h"
 
-/* State of a group: of a one-sided row open or closed; of two-sided rows released or joined; of friction absent, sticking, or sliding with
- * a slip velocity of this sign, and that of two rows forward in any direction. Idle: closed or sticking, redundant with other groups, which
+/* State of a group: of a one-sided row open or closed; of two-sided rows released or joined; of friction absent, sticking, or sliding with a
+ * slip velocity of this sign; friction in two directions slides forward in any. Idle: closed or sticking, redundant with other groups, which
  * bear its force. Behind: within the range of a shape, on its back, and not in contact. */
 enum { ZD_OPEN, ZD_CLOSED, ZD_SLIDES_FORWARD, ZD_SLIDES_BACKWARD, ZD_IDLE, ZD_BEHIND };
 
 static const double ZD_TOUCHING = 1e-10;     /* gap of contacts that take part in a change, relative to the characteristic length */
 
-static const double ZD_SLOW = 1e-6;          /* slip velocity of two rows below which it keeps its direction, in characteristic lengths/s */
+static const double ZD_SLOW_SLIP = 1e-6;      /* slip in two directions below which it does not turn, in characteristic lengths per s */
 
 enum { ZD_MAX_LOADS = 4 };      /* number of rows whose multipliers may be a load */
 
@@ -31,9 +31,9 @@ typedef struct zd_known_terms {
     int terms;
     double t, *p, *v;       /* s, (nq,), (nv,) */
     double *row;            /* (nv,) a row of C, expanded */
-    int has_share;          /* true if `share` is that of the state */
-    zd_share *share;        /* NULL: no friction has two rows */
-    int *normal, *friction; /* (ZD_MAX_SHARES,) groups of its contacts; -1: no friction */
+    int has_distribution;   /* true if the distribution is that of the state */
+    zd_distribution *distribution;      /* NULL: no contact is in space */
+    int *normal, *friction; /* (ZD_MAX_DISTRIBUTED,) groups of its contacts; -1: no friction */
 } zd_known_terms;
 
 typedef struct zd_phase_system zd_phase_system;
@@ -50,11 +50,11 @@ struct zd_phase_system {
     const zd_layout *layout;    /* layout of the full system; NULL: it declares no structure */
     int size_of_C;          /* entries of C of the full system */
     int slidings;
-    int slides_in_planes;   /* true if friction of two rows slides */
-    int is_shared;          /* true if friction of two rows sticks whose distribution is not determined */
-    double slow;            /* m/s: slip velocity of two rows below which it keeps its direction */
-    double *direction;      /* (groups, 2): of slip of two rows at the start of a step, unit vectors */
-    double *speed;          /* (groups,): that slip, m/s */
+    int has_sliding_pairs;  /* true if friction in two directions slides */
+    int is_indeterminate;   /* true if forces of contacts that stick are not determined */
+    double slow_slip;       /* m/s: slip velocity in two directions below which it does not turn */
+    double *direction;      /* (groups, 2): unit vectors of slip in two directions at the start of a step */
+    double *slip_speed;     /* (groups,) m/s: its magnitude there */
     zd_sliding *sliding;    /* (groups,) */
     zd_structure structure;
     zd_measures measures;   /* measures of the full system, then the multiplier of each row of the full system */
@@ -80,6 +80,13 @@ zd_phase_system *zd_phase_system_create(zd_arena *arena, const zd_system *full, 
  * that equals its force. `u`: forces that read reactions; NULL without any. */
 void zd_phase_expand(const zd_phase_system *self, double t, const double *p, const double *v, const double *lambda, const double *u,
                      double *all);
+/* True if contacts have friction in two directions. */
+static inline int zd_has_pairs(const zd_system *full)
+{
+    for (int g = 0; g < full->groups; g++)
+        if (full->group[g].normal && full->group[g].rows == 2) return 1;
+    return 0;
+}
 /* Number of rows of the full system of a point. */
 static inline int zd_point_constraints(const zd_point *point) { return zd_constraints(point->phase ? point->phase->full : point->system); }
 /* Multipliers of all rows at the point, which are known there; valid until the next call. */
@@ -87,23 +94,23 @@ const double *zd_point_multipliers(const zd_point *point);
 /* Evaluates terms of the constraints of the full system at a state, in memory of its own; then a row of its C, its Phi, Phi_t and xi there,
  * and the slip velocity (rows,) of a group. */
 int zd_phase_evaluate(const zd_phase_system *self, int want, double t, const double *p, const double *v);
-/* The same for terms that are not known yet. */
-int zd_phase_know(const zd_phase_system *self, int want, double t, const double *p, const double *v);
+/* The same, of terms that are not known there yet. */
+int zd_phase_need(const zd_phase_system *self, int want, double t, const double *p, const double *v);
 zd_row_of_C zd_phase_row(const zd_phase_system *self, int row);
 const double *zd_phase_Phi(const zd_phase_system *self);
 const double *zd_phase_Phi_t(const zd_phase_system *self);
 const double *zd_phase_xi(const zd_phase_system *self);
 void zd_phase_slip(const zd_phase_system *self, int group, const double *v, double *slip);
-/* Follows the directions of slip to those at a state, if it is a start or they have not reversed. */
-int zd_phase_turn(const zd_phase_system *self, int is_start, double t, const double *p, const double *v);
+/* Directions of slip <- those at a state, unless they have reversed; at a start in any case. */
+int zd_phase_update_directions(const zd_phase_system *self, int is_start, double t, const double *p, const double *v);
 /* Gap of a one-sided group; and distance of its coordinate from the ends of its range, negative outside: INFINITY for an unbounded shape. */
 double zd_phase_gap(const zd_phase_system *self, int group);
 double zd_phase_range_margin(const zd_phase_system *self, int group);
 /* Number of measures of the full system. */
 static inline int zd_own_measures(const zd_system *full) { return full->measures ? full->measures->count : 0; }
-/* Forces of the contacts that are closed and stick, in the distribution with the largest margin; C of the state must be known. With
- * friction of two rows that slides, only those of friction may differ. */
-const zd_share *zd_phase_share(const zd_phase_system *self, const double *lambda);
+/* Forces of the contacts that are closed and stick, in the distribution with the largest margin; C of the state must be known. While
+ * friction in two directions slides elsewhere, normal forces are given. */
+const zd_distribution *zd_phase_distribution(const zd_phase_system *self, const double *lambda);
 /* Sets the functions of a phase whose rows are known. */
 void zd_phase_pass_functions(zd_phase_system *self);
 /* First row of the multipliers that are the load of friction. */
@@ -113,8 +120,6 @@ static inline int zd_first_load(const zd_system *full, const zd_group *group)
 }
 /* Load that bounds friction, from the multipliers (loads,) of its rows or of the normal row; 1 for a fixed bound. */
 double zd_friction_load(const zd_system *full, const zd_group *group, const double *lambda);
-/* Bound of the friction of a group, from the multipliers of all rows; `which`: 0 static, 1 sliding. */
-double zd_friction_bound(const zd_system *full, int group, int which, const double *lambda);
 /* Margin of a group at a state, whose accelerations and multipliers are those of the point: positive while its phase lasts. It is the gap of
  * an open row, the force N of a closed one, the bound of static friction minus its force, and the slip speed; and how far the coordinate of a
  * bounded shape is from the ends of its range. */

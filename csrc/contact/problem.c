@@ -3,10 +3,9 @@
  * solution if all signs are right. Rows whose z is not unique, as they depend on others, are idle, with z = 0. The bounds of parallel
  * friction that sticks add up.
  *
- * In space, where it counts for friction which of several contacts bears a body, the least z are taken instead.
- *
- * Friction of two rows slides against w, whose direction e is given or found by Newton's method from e x w(e) = 0. Where it sticks in
- * several contacts, any distribution within their bounds does: contact/share.h.
+ * In space, where friction depends on the distribution of normal forces, those of the minimum norm are the solution instead. Friction in
+ * two directions is a pair of rows, which slides against its w: contact/case.c. Contacts that stick are a solution if some distribution of
+ * their forces is within their bounds: contact/distribution.h.
  */
 #include "case.h"
 
@@ -32,8 +31,8 @@ static int signs_are_right(const zd_case *it)
         if (row->normal < 0) {
             if (state == ZD_CLOSED ? it->z[i] < -z : row->slides == ZD_OPEN && it->w[i] < -w) return 0;
         } else if (row->pair) {
-            if (zd_case_seeks_direction(it, i)
-                && it->e[i] * it->w[i] + it->e[i + 1] * it->w[i + 1] <= (row->seeks ? it->slip_sign : 1) * w) return 0;
+            if (zd_case_has_unknown_direction(it, i)
+                && it->e[i] * it->w[i] + it->e[i + 1] * it->w[i + 1] <= (row->is_unknown ? it->slip_sign : 1) * w) return 0;
         } else if (state == ZD_CLOSED) {
             if (!zd_case_sticks_with_another(it, i) && fabs(it->z[i]) > zd_case_total_bound(it, i) + z) return 0;
         } else if (zd_slides(state) && row->slides == ZD_OPEN && zd_slip_sign(state) * it->w[i] <= it->slip_sign * w) return 0;
@@ -41,14 +40,14 @@ static int signs_are_right(const zd_case *it)
     return 1;
 }
 
-/* True if the case is a solution, with friction of two rows. */
+/* True if the case is a solution, with friction in two directions. */
 static int is_solution(zd_case *it)
 {
-    it->shared = 0;
+    it->free_forces = 0;
     if (!zd_case_has_pairs(it)) return signs_are_right(it);
     if (!zd_case_pairs_stick(it) || !signs_are_right(it)) return 0;
-    const int lacking = it->count - it->rank;       /* equations, besides those for the least normal forces */
-    if (lacking == (zd_case_has_sliding_pairs(it) ? it->shared : it->shared - it->least)) return 1;
+    const int lacking = it->count - it->rank;       /* equations, besides those of the minimum norm */
+    if (lacking == (zd_case_has_sliding_pairs(it) ? it->free_forces : it->free_forces - it->free_normals)) return 1;
     it->is_undetermined = 1;
     return 0;
 }
@@ -80,7 +79,7 @@ static int is_held_by_others(const zd_case *it, int i)
 }
 
 /* Sum W_kk z_k^2 of the normal forces */
-static double find_effort(const zd_case *it)
+static double find_norm(const zd_case *it)
 {
     double sum = 0;
     for (int i = 0; i < it->of->rows && it->of->row[i].normal < 0; i++) sum += it->of->W[i * (it->of->rows + 1)] * it->z[i] * it->z[i];
@@ -91,22 +90,22 @@ static void check_case(zd_case *it)
 {
     zd_contact_problem *of = it->of;
     if (!zd_case_solve(it) || !is_solution(it)) return;
-    const double effort = find_effort(it);
+    const double norm = find_norm(it);
     const int is_new = it->found && is_another(it);
-    if (!it->depends) it->found += is_new;
-    if (it->found && !(is_new && it->depends && effort < (1 - ZD_SIGN_SHARE) * it->effort)) return;
+    if (!it->normals_depend) it->found += is_new;
+    if (it->found && !(is_new && it->normals_depend && norm < (1 - ZD_SIGN_SHARE) * it->norm)) return;
     it->found = 1;
-    it->effort = effort;
+    it->norm = norm;
     memcpy(of->state, it->state, of->rows);
     for (int i = 0; i < of->rows; i++)
         if (it->state[i] == ZD_CLOSED && zd_case_sticks_with_another(it, i)) of->state[i] = ZD_IDLE;
-    for (int a = it->rank; a < it->count && !it->shared; a++) of->state[it->active[it->column[a]]] = ZD_IDLE;
+    for (int a = it->rank; a < it->count && !it->free_forces; a++) of->state[it->active[it->column[a]]] = ZD_IDLE;
     for (int i = 0; i < of->rows; i++)
         if (!zd_case_has_pairs(it) && is_held_by_others(it, i)) of->state[i] = ZD_IDLE;
     memcpy(of->z, it->z, of->rows * sizeof *of->z);
     memcpy(of->w, it->w, of->rows * sizeof *of->w);
     memcpy(of->direction, it->e, of->rows * sizeof *of->direction);
-    of->shared = it->shared, of->least = it->least;
+    of->free_forces = it->free_forces, of->free_normals = it->free_normals;
 }
 
 /* Enumerates the states of row i and of all later ones. */
@@ -164,10 +163,10 @@ int zd_problem_solve(zd_contact_problem *self)
     zd_case it = {self, state, active, column, .size = size};
     find_parallel(self);
     it.A = self->scratch, it.x = it.A + (size_t)n * n, it.z = it.x + n, it.w = it.z + n, it.e = it.w + n;
-    it.depends = self->takes_least && zd_case_normals_depend(&it);
-    int seeks = 0;
-    for (int i = 0; i < n; i++) seeks |= self->row[i].pair && (self->row[i].slides == ZD_OPEN || self->row[i].seeks);
-    if (seeks) zd_case_guess_directions(&it);
+    it.normals_depend = self->is_min_norm && zd_case_normals_depend(&it);
+    int has_unknown = 0;
+    for (int i = 0; i < n; i++) has_unknown |= self->row[i].pair && (self->row[i].slides == ZD_OPEN || self->row[i].is_unknown);
+    if (has_unknown) zd_case_estimate_directions(&it);
     for (it.slip_sign = 1; it.slip_sign >= -1 && !it.found; it.slip_sign -= 2) complete(&it, 0);
     return it.found || !it.is_undetermined ? it.found : -2;
 }

@@ -11,23 +11,23 @@ typedef struct zd_candidate {
                              * bounds it, 0: the bound is fixed */
     double bound[2];        /* static and sliding: coefficients, or fixed bounds */
     signed char slides;     /* ZD_OPEN: any state; otherwise friction slides in this state, and a normal row is open, whatever w is */
-    signed char pair;       /* 1, 2: first and second row of friction along two directions; 0: it has one row */
-    signed char seeks;      /* 1: it slides, in a direction to be found */
+    signed char pair;       /* 1, 2: first and second row of friction in two directions; 0: it has one row */
+    signed char is_unknown; /* 1: a pair that slides in an unknown direction */
 } zd_candidate;
 
 typedef struct zd_contact_problem {
     int rows;
     const zd_candidate *row;    /* (rows,) normal rows before the friction that they bound */
     const double *W, *b;    /* (rows, rows), (rows,) */
-    int takes_least;        /* true if normal rows that depend on others are closed, too, with the least forces */
+    int is_min_norm;        /* true if dependent normal rows are closed, too, with forces of minimum norm */
     int opens;              /* true if a row has just opened: of equal solutions, the one with most rows open is returned */
     signed char *state;     /* (rows,) result, as of groups */
     int *tie;               /* (rows,) result: an earlier row of friction that is parallel; -1: none */
     double *factor;         /* (rows,) result: length of such a row in units of that one */
     double *z, *w;          /* (rows,) result */
-    double *direction;      /* (rows,) of slip, of friction of two rows: where it is sought the first guess, 0 0: none; and the result */
-    int shared;             /* result: number of such forces that are not determined, as contacts that stick share them */
-    int least;              /* result: number of normal forces that are not determined, of which the least are taken */
+    double *direction;      /* (rows,) of pairs, unit vectors of slip: given ones or first estimates, 0 0: none; and the result */
+    int free_forces;        /* result: number of unknowns of contacts that stick that are not determined */
+    int free_normals;       /* result: number of normal forces that are not determined */
     double *scratch;        /* (zd_problem_scratch(rows),) */
 } zd_contact_problem;
 

@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../linalg/roots.h"
 #include "../paths/path.h"
 #include "../point/point.h"
 #include "../step_limits.h"
@@ -76,10 +77,10 @@ static void classify_friction(zd_contacts *it)
 {
     for (int k = it->normals; k < it->count; k++) {
         const int i = k - (it->row[k].pair == 2), is_pair = it->row[k].pair != 0;      /* its first row */
-        const double speed = is_pair ? zd_length_of_two(it->w[i], it->w[i + 1]) : fabs(it->w[k]);
-        const int is_still = speed <= fmax(STILL * zd_rest_speed(it, k), it->missed[k]);
+        const double speed = is_pair ? zd_hypotenuse(it->w[i], it->w[i + 1]) : fabs(it->w[k]);
+        const int is_still = speed <= fmax(STILL * zd_rest_speed(it, k), it->slip_error[k]);
         it->row[k].slides = is_still ? it->ends[k] : is_pair || it->w[k] > 0 ? ZD_SLIDES_FORWARD : ZD_SLIDES_BACKWARD;
-        it->row[k].seeks = (signed char)(is_pair && is_still && it->ends[k] != ZD_OPEN);
+        it->row[k].is_unknown = (signed char)(is_pair && is_still && it->ends[k] != ZD_OPEN);
         if (is_pair && !is_still) it->direction[k] = it->w[k] / speed;
     }
 }
@@ -115,8 +116,8 @@ static int find_correction(const zd_contacts *it, const double *w, double *z)
         x[a] = -w[active[a]];
         for (int c = 0; c < count; c++) A[a * count + c] = it->W[active[a] * it->count + active[c]];
     }
-    const int depend_on_others = it->shared || it->least;       /* then all are right within rounding */
-    if (!zd_problem_equations(count, A, x) && !depend_on_others) return ZD_SINGULAR;
+    const int is_dependent = it->free_forces || it->free_normals;       /* rows then contradict each other by rounding */
+    if (!zd_equations_solve(count, A, x) && !is_dependent) return ZD_SINGULAR;
     memset(z, 0, ZD_MAX_CANDIDATES * sizeof *z);
     for (int a = 0; a < count; a++) z[active[a]] = x[a];
     return ZD_DONE;
@@ -188,11 +189,11 @@ static int find_next(zd_contacts *it)
     for (int k = 0; k < it->count; k++) it->next[it->group[k]] = it->state[k];
     if (!status) phase = zd_phases_find(it->phases, it->next);
     if (!status && !phase) status = ZD_NO_MEMORY;
+    if (!status) phase->of->is_indeterminate = it->free_forces > 0;
     for (int k = 0; k < it->count && !status; k++) {
         phase->of->tie[it->group[k]] = it->tie[k] < 0 ? -1 : it->group[it->tie[k]];
         phase->of->tie_factor[it->group[k]] = it->factor[k];
         if (it->row[k].pair) phase->of->direction[2 * it->group[k] + it->component[k]] = it->direction[k];
-        phase->of->is_shared = it->shared > 0;
     }
     return status;
 }

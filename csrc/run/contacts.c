@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "../linalg/roots.h"
 #include "../point/point.h"
 
 static int refuse_start(zd_contacts *it, const zd_group *group, double gap)
@@ -21,7 +22,7 @@ static int has_ended(const zd_contacts *it, int g)
     return watch->acts[watch->events->count - it->phases->full->groups + g];
 }
 
-/* True if a slip velocity of two rows has just reversed its direction, as it ends: those of other contacts then end as well. */
+/* True if a slip in two directions has just reversed, as it ends: those of other contacts then end as well. */
 static int has_reversed(const zd_contacts *it)
 {
     for (int g = 0; g < it->phases->full->groups; g++)
@@ -38,10 +39,11 @@ static signed char find_end(const zd_contacts *it, int g)
     return zd_point_multipliers(it->run->motion.point)[phases->full->group[g].first] > 0 ? ZD_SLIDES_FORWARD : ZD_SLIDES_BACKWARD;
 }
 
-static const double MISSED = 0.01;          /* share of the slip at the start of a step by which its end may miss zero */
-static const double LIMITS = 1e-3;          /* share in what limits a common load, beyond which a contact is at its bound */
+static const double MISSED_SHARE = 0.01;    /* error of zero where a slip ends, relative to that at the start of the step */
+static const double LIMITING_SHARE = 1e-3;  /* smallest share in what limits a distribution of a contact at its bound */
 
-/* The same for friction of two rows, with the direction of its slip. Of contacts that share a load, those at their bounds slide. */
+/* The same for friction in two directions, with that of its slip. Where forces are not determined, contacts slide that are at their bounds
+ * in the best distribution. */
 static signed char find_pair_end(const zd_contacts *it, int g, double *direction)
 {
     const zd_phases *phases = it->phases;
@@ -49,16 +51,16 @@ static signed char find_pair_end(const zd_contacts *it, int g, double *direction
     const double *lambda = zd_point_multipliers(it->run->motion.point), *f = lambda + phases->full->group[g].first;
     int is_any = has_ended(it, g);
     if (phases->state[g] != ZD_CLOSED) return ZD_OPEN;
-    if (of->is_shared) {
-        const zd_share *share = zd_phase_share(of, lambda);
-        for (int i = 0; i < share->contacts; i++) {
+    if (of->is_indeterminate) {
+        const zd_distribution *forces = zd_phase_distribution(of, lambda);
+        for (int i = 0; i < forces->contacts; i++) {
             const int friction = of->known->friction[i];
             is_any |= friction >= 0 && has_ended(it, friction);
-            if (friction == g) f = share->weight[i] > LIMITS ? share->force + 3 * i + 1 : NULL;
+            if (friction == g) f = forces->weight[i] > LIMITING_SHARE ? forces->force + 3 * i + 1 : NULL;
         }
     }
     if (!is_any || !f) return ZD_OPEN;
-    const double size = zd_length_of_two(f[0], f[1]);
+    const double size = zd_hypotenuse(f[0], f[1]);
     for (int i = 0; i < 2; i++) direction[i] = size > 0 ? f[i] / size : 0;
     return ZD_SLIDES_FORWARD;
 }
@@ -94,7 +96,7 @@ static int find_normal_state(const zd_contacts *it, int g, int is_start)
     return ZD_BEHIND;
 }
 
-/* Adds a row of a group, its friction of two rows as a pair. */
+/* Adds a row of a group; friction in two directions has a pair of them. */
 static int add_candidate(zd_contacts *it, int g, int component, int normal, double gap)
 {
     const zd_group *group = it->phases->full->group + g;
@@ -111,8 +113,8 @@ static int add_candidate(zd_contacts *it, int g, int component, int normal, doub
     double direction[2] = {0, 0};
     it->ends[it->count] = it->row[it->count].pair ? find_pair_end(it, g, direction) : find_end(it, g);
     it->direction[it->count] = direction[component];
-    it->missed[it->count] = it->row[it->count].pair && zd_slides(it->phases->state[g]) && has_reversed(it)
-                          ? fmax(MISSED * it->phases->present->of->speed[g], it->phases->present->of->slow) : 0;
+    if (it->has_reversed && it->row[it->count].pair && zd_slides(it->phases->state[g]))
+        it->slip_error[it->count] = fmax(MISSED_SHARE * it->phases->present->of->slip_speed[g], it->phases->present->of->slow_slip);
     it->count++;
     return ZD_DONE;
 }
@@ -138,6 +140,7 @@ static int find_normals(zd_contacts *it, int is_start)
 int zd_contacts_find(zd_contacts *it, int is_start)
 {
     const zd_system *full = it->phases->full;
+    it->has_reversed = has_reversed(it);
     int status = find_normals(it, is_start);
     for (int is_own = 0; is_own < 2; is_own++)      /* friction of contacts, other friction */
         for (int g = 0; g < full->groups && !status; g++) {
@@ -228,19 +231,11 @@ void zd_contacts_apply(zd_contacts *it, const double *z)
     }
 }
 
-/* True if contacts have slip in two directions. */
-static int are_in_space(const zd_system *full)
-{
-    for (int g = 0; g < full->groups; g++)
-        if (full->group[g].normal && full->group[g].rows == 2) return 1;
-    return 0;
-}
-
 int zd_contacts_solve(zd_contacts *it, int rows, const char *what)
 {
     int opens = 0;
     for (int k = 0; k < rows; k++) opens |= it->ends[k] != ZD_OPEN;
-    zd_contact_problem problem = {rows, it->row, it->W, it->b, are_in_space(it->phases->full), opens, it->state, it->tie, it->factor,
+    zd_contact_problem problem = {rows, it->row, it->W, it->b, zd_has_pairs(it->phases->full), opens, it->state, it->tie, it->factor,
                                   it->z, it->after, it->direction, 0, 0, it->scratch};
     double W[ZD_MAX_CANDIDATES * ZD_MAX_CANDIDATES];
     if (rows < it->count) {
@@ -249,10 +244,9 @@ int zd_contacts_solve(zd_contacts *it, int rows, const char *what)
         problem.W = W;
     }
     const int found = zd_problem_solve(&problem);
-    it->shared = problem.shared, it->least = problem.least;
+    it->free_forces = problem.free_forces, it->free_normals = problem.free_normals;
     if (found == 1) return ZD_DONE;
-    const char *how = found == -2 ? "the normal forces that bound friction are not determined: contacts of one body with friction must be "
-                                    "at most three on a plane"
+    const char *how = found == -2 ? "the normal forces that bound sliding friction are not determined: contacts must be fewer"
                     : found < 0 ? "too many contacts change at one instant: they must be fewer"
                     : !found ? rows > it->normals ? "no solution exists, as in Painleve's paradox: friction must be smaller"
                                                   : "no solution exists: drives and joints must allow the bodies to stop"

@@ -16,9 +16,10 @@ typedef struct zd_contacts {
     signed char state[ZD_MAX_CANDIDATES];
     int tie[ZD_MAX_CANDIDATES];
     double factor[ZD_MAX_CANDIDATES];
-    double direction[ZD_MAX_CANDIDATES];    /* slip of friction of two rows, a unit vector */
-    double missed[ZD_MAX_CANDIDATES];       /* m/s: slip that is rounding besides, where its direction has just been reversed */
-    int shared, least;      /* numbers of forces that are not determined, of friction of two rows and normal ones */
+    double direction[ZD_MAX_CANDIDATES];    /* component of the unit vector of slip of a pair */
+    double slip_error[ZD_MAX_CANDIDATES];   /* m/s: slip that counts as zero where it has just reversed */
+    int has_reversed;       /* true if a slip in two directions has */
+    int free_forces, free_normals;      /* numbers of forces that are not determined: of contacts that stick, and normal ones */
     double gap[ZD_MAX_CANDIDATES];
     double w[ZD_MAX_CANDIDATES], b[ZD_MAX_CANDIDATES], z[ZD_MAX_CANDIDATES], after[ZD_MAX_CANDIDATES];
     double omitted[ZD_MAX_CANDIDATES];      /* m/s: speed that a bounce would have after an impact slower than the rest speed */

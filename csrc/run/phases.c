@@ -281,14 +281,14 @@ static int begin_margins(zd_run *run)
 {
     zd_phases *self = run->phases;
     zd_phase_system *of = self->present->of;
-    int status = zd_phase_turn(of, 1, self->at.t, self->at.p, self->at.v);
+    int status = zd_phase_update_directions(of, 1, self->at.t, self->at.p, self->at.v);
     if (!status) status = zd_motion_accelerate(&run->motion);
     if (!status) zd_rank_find_multipliers(run->motion.point);
     memset(of->bias, 0, self->full->groups * sizeof *of->bias);
     for (int g = 0; !status && g < self->full->groups; g++) {
         double margin;
         status = zd_phase_margin(of, run->motion.point, g, self->at.t, self->at.p, self->at.v, &margin);
-        const double rounding = self->full->group[g].rows == 2 && zd_slides(of->state[g]) ? of->slow : MARGIN_ROUNDING * self->length;
+        const double rounding = self->full->group[g].rows == 2 && zd_slides(of->state[g]) ? of->slow_slip : MARGIN_ROUNDING * self->length;
         if (margin < rounding) of->bias[g] = rounding - margin;
     }
     if (!status) status = zd_watch_start(&run->watch);
@@ -346,5 +346,5 @@ int zd_phases_check(zd_run *run)
                  "set max_step or a shorter step", group->name, -gap);
         return ZD_BRANCH;
     }
-    return zd_phase_turn(self->present->of, 0, run->stepper.t, run->motion.point->p, run->motion.point->v);
+    return zd_phase_update_directions(self->present->of, 0, run->stepper.t, run->motion.point->p, run->motion.point->v);
 }

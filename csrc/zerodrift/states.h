@@ -27,6 +27,8 @@ zd_system zd_perturbed(zd_perturbation *perturbation);      /* refers to the per
 zd_system *zd_phase_new(const zd_system *system, const signed char *state);
 void zd_phase_free(zd_system *phase);
 const int *zd_phase_rows(const zd_system *phase);       /* (m,): the constraint of the system that each one of the phase is */
+/* Bound of the friction of a group of the system, from the multipliers of all of its constraints; `which`: 0 static, 1 sliding. */
+double zd_friction_bound(const zd_system *system, int group, int which, const double *multipliers);
 
 /* ---- operations of a run for single states; on failure each writes one sentence into `message` ---- */
 

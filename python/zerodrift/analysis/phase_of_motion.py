@@ -114,7 +114,7 @@ def warn_of_forces(system: Any, t: np.ndarray, multipliers: np.ndarray) -> None:
     core: Any = core_of(system)
     worst: dict[str, tuple[float, str]] = {}
     for when, all_rows in zip(t, core.expanded(np.nan_to_num(multipliers)), strict=True):
-        for name, excess, how in _excesses(system.phases_of._groups, core.full.c.group, core.state, all_rows):
+        for name, excess, how in _excesses(system.phases_of._groups, core, all_rows):
             if excess > TOLERANCE * np.abs(all_rows).max() and excess > worst.get(name, (0.0, ""))[0]:
                 worst[name] = excess, f"{name!r} {how} {excess:.3g} (N or N m) at t = {when:g}"
     if worst:
@@ -122,18 +122,11 @@ def warn_of_forces(system: Any, t: np.ndarray, multipliers: np.ndarray) -> None:
                       + "; ".join(said for _, said in worst.values()), AccuracyWarning, stacklevel=3)
 
 
-def _excesses(groups: Sequence[tuple[str, str]], c: Any, state: Sequence[int],
-              multipliers: np.ndarray) -> Iterator[tuple[str, float, str]]:
+def _excesses(groups: Sequence[tuple[str, str]], core: Any, multipliers: np.ndarray) -> Iterator[tuple[str, float, str]]:
     for g, (name, kind) in enumerate(groups):
-        group = c[g]
-        force = multipliers[group.first:group.first + group.rows] if state[g] == CLOSED else np.zeros(1)
+        group = core.full.c.group[g]
+        force = multipliers[group.first:group.first + group.rows] if core.state[g] == CLOSED else np.zeros(1)
         if kind in ("one-sided", "one-way"):
             yield name, group.sign * force[0], "pulls with"
         elif kind == "friction":
-            loads = np.array([group.load_factor[i] * multipliers[group.load + i] for i in range(group.loads)])
-            F, M = np.split(loads, 2) if group.at_ends else (loads, None)
-            normal = c[group.normal - 1] if group.normal else None
-            load = (max(0.0, -normal.sign * multipliers[normal.first]) if normal else
-                    1.0 if not group.loads else float(np.linalg.norm(F)) if M is None else
-                    float(np.linalg.norm(F + M) + np.linalg.norm(F - M)))
-            yield name, float(np.linalg.norm(force)) - group.friction[0] * load, "exceeds its bound by"
+            yield name, float(np.linalg.norm(force)) - core.friction_bound(g, multipliers), "exceeds its bound by"

@@ -119,6 +119,10 @@ class _InPhase:
         found[:, self.active] = multipliers
         return found
 
+    def friction_bound(self, group: int, multipliers: np.ndarray) -> float:
+        """Bound of static friction in N or N m, from multipliers (full m,) of all constraints."""
+        return lib.zd_friction_bound(self.full.c, group, 0, ffi.from_buffer("double[]", np.ascontiguousarray(multipliers)))
+
     def measure(self, index: int, t: np.ndarray, p: np.ndarray, v: np.ndarray, vdot: np.ndarray | None = None,
                 multipliers: np.ndarray | None = None, *, is_own: bool = False, wanted: str = "value", is_least: bool = False,
                 acting: Acting | None = None) -> np.ndarray:

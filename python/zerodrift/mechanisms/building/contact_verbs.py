@@ -241,7 +241,7 @@ def with_switches(m: Elements, joint: Joint, given: Mapping[str, Any]) -> Joint:
     if joint._switched.needs_rows:
         amend(joint, cut=True)
     if joint._switched.friction and joint.dimension == 3 and joint.coordinate == "angle":
-        amend(joint, row=TABLE["bearing"])     # whose rows tell the radial force
+        amend(joint, row=TABLE["bearing"])     # its first multipliers are the radial force
     return joint
 
 

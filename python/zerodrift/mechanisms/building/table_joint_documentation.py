@@ -30,10 +30,12 @@ WORDS = {
     "cut": ("bool", "True if this joint must close a loop; left out, the joint that closes a loop is chosen."),
     "friction_torque": ("float or (float, float), optional", "Bound of dry friction, or the static and the sliding one, in N m."),
     "friction_force": ("float or (float, float), optional", "Bound of dry friction, or the static and the sliding one, in N."),
-    "friction": ("float or (float, float), optional", "In the plane: coefficients of friction instead, under the load of the "
-                 "joint, which is then constraints, not a coordinate."),
-    "radius": ("float, optional", "Radius of the pin in m, on which `friction` acts: its torque is at most ``mu r |F|``."),
-    "guide": ("float, optional", "Length of the guide in m: friction is at most ``mu max(|F|, 2 |M| / l)``."),
+    "friction": ("float or (float, float), optional", "Coefficients of friction instead, under the load of the joint, which is "
+                 "then constraints, not a coordinate. Axial forces and bending moments of a pin, and torsion of a slide, do not "
+                 "count."),
+    "radius": ("float, optional", "Radius of the pin in m, on which `friction` acts: its torque is at most ``mu r |F|``, with "
+               "the radial force F."),
+    "guide": ("float, optional", "Length of the guide in m: friction is at most ``mu (|F/2 + M/l| + |F/2 - M/l|)``."),
     "active": ("bool, optional", "Initial state of a joint that can be released and joined, by `Run.release`, `Run.join`, "
                "`Mechanism.latch` and ``Event(then=)``; it is then constraints, not a coordinate.")}
 EXAMPLES = {"axis": ("(1, 0)", "(1, 0, 0)"), "along": ("(1, 0)", "(1, 0, 0)"), "axes": ("", "((1, 0, 0), (0, 1, 0))"),

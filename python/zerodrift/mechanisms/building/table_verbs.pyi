@@ -133,10 +133,10 @@ class TableVerbs(Elements):
         friction_torque : float or (float, float), optional
             Bound of dry friction, or the static and the sliding one, in N m.
         friction : float or (float, float), optional
-            In the plane: coefficients of friction instead, under the load of the joint, which is then constraints, not a
-            coordinate.
+            Coefficients of friction instead, under the load of the joint, which is then constraints, not a coordinate. Axial
+            forces and bending moments of a pin, and torsion of a slide, do not count.
         radius : float, optional
-            Radius of the pin in m, on which `friction` acts: its torque is at most ``mu r |F|``.
+            Radius of the pin in m, on which `friction` acts: its torque is at most ``mu r |F|``, with the radial force F.
         active : bool, optional
             Initial state of a joint that can be released and joined, by `Run.release`, `Run.join`, `Mechanism.latch` and
             ``Event(then=)``; it is then constraints, not a coordinate.
@@ -187,10 +187,10 @@ class TableVerbs(Elements):
         friction_force : float or (float, float), optional
             Bound of dry friction, or the static and the sliding one, in N.
         friction : float or (float, float), optional
-            In the plane: coefficients of friction instead, under the load of the joint, which is then constraints, not a
-            coordinate.
+            Coefficients of friction instead, under the load of the joint, which is then constraints, not a coordinate. Axial
+            forces and bending moments of a pin, and torsion of a slide, do not count.
         guide : float, optional
-            Length of the guide in m: friction is at most ``mu max(|F|, 2 |M| / l)``.
+            Length of the guide in m: friction is at most ``mu (|F/2 + M/l| + |F/2 - M/l|)``.
         active : bool, optional
             Initial state of a joint that can be released and joined, by `Run.release`, `Run.join`, `Mechanism.latch` and
             ``Event(then=)``; it is then constraints, not a coordinate.

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .bodies import Point
-from .frames import Circle, Plane, Sphere, perpendicular
+from .frames import Circle, perpendicular
 from .immutable import Fixed
 from .joints import Joint
 from .measures import Measure, VectorMeasure, scalar
@@ -75,14 +75,19 @@ class Contact:
     force: VectorMeasure
     dimension: int
     opposite = 0        # index of the first switch of the part on the opposite side, relative to its own
-    sign = 1            # of its gap
     owner = property(lambda self: vars(self).get("_owner", self), lambda self, owner: vars(self).update(_owner=owner),
                      doc="The contact of which it is a part, or itself.")
 
-    def _define(self, radius: float, shape: Any, restitution: float, friction: tuple[float, float],
-                compliance: Compliance | None) -> None:
+    def __init__(self, name: str, first: Point, second: Point, radius: float, shape: Any, restitution: float,
+                 friction: tuple[float, float], compliance: Compliance | None = None) -> None:
+        super().__init__(name, first, second, **self._geometry(shape))      # type: ignore[call-arg]
         self.radius, self.shape, self.restitution, self.friction = radius, shape, restitution, friction
         self.compliance = compliance
+
+    @staticmethod
+    def _geometry(shape: Any) -> dict[str, Any]:
+        """Axis or frames of the joint, as arguments."""
+        return {"axis": shape.direction}
 
     @property
     def parts(self) -> tuple[Any, ...]:
@@ -93,9 +98,22 @@ class Contact:
         """Range of the shape; None if it is unbounded."""
         return None
 
+    @property
+    def sign(self) -> int:
+        """Sign of its gap: -1 inside of a circle or a sphere."""
+        return 1 if getattr(self.shape, "outside", True) else -1
+
     def radius_with(self, numbers: Numbers) -> float:
         """Radius of the round body in m."""
         return numbers(self.owner, "radius", self.radius)
+
+    def length_with(self, numbers: Numbers) -> float:
+        """Radius of the round body in m, negative inside of a circle or a sphere."""
+        return self.sign * self.radius_with(numbers)
+
+    def distance_with(self, numbers: Numbers) -> float:
+        """Distance of the centres of two round bodies that touch, in m."""
+        return self.shape.radius + self.length_with(numbers)
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
@@ -114,11 +132,6 @@ class LineContact(Contact, Joint):      # type: ignore[misc]
     """Contact with a line or a segment, `Mechanism.contact`; its attributes are those of `Contact`."""
 
     kind, table = "contact", "rolling"
-
-    def __init__(self, name: str, first: Point, second: Point, radius: float, shape: Any, restitution: float,
-                 friction: tuple[float, float], compliance: Compliance | None = None) -> None:
-        Joint.__init__(self, name, first, second, axis=shape.direction)
-        self._define(radius, shape, restitution, friction, compliance)
 
     @property
     def parts(self) -> tuple[Joint, ...]:
@@ -159,10 +172,6 @@ class LineContact(Contact, Joint):      # type: ignore[misc]
         """True for all shapes but unbounded lines."""
         return isinstance(self.shape, Circle) or self.shape.length < np.inf
 
-    def length_with(self, numbers: Numbers) -> float:
-        """Radius of the round body in m."""
-        return self.radius_with(numbers)
-
 
 class RoundContact(LineContact):
     """Contact of a point or a round body with a circle, or with an arc of it, `Mechanism.contact`.
@@ -187,18 +196,9 @@ class RoundContact(LineContact):
         turned = (towards * np.exp(1j * angle) for angle in (-self.shape.half_angle, self.shape.half_angle))
         return [self.shape.start + np.array([at.real, at.imag]) for at in turned]
 
-    @property
-    def sign(self) -> int:      # type: ignore[override]
-        """1 outside of the circle, -1 inside."""
-        return 1 if self.shape.outside else -1
-
-    def length_with(self, numbers: Numbers) -> float:
-        """Radius of the round body in m, negative inside of the circle."""
-        return self.sign * self.radius_with(numbers)
-
     def offset_as_drawn(self, numbers: Numbers) -> float:
         """Distance of the centres where they touch, in m."""
-        return self.shape.radius + self.length_with(numbers)
+        return self.distance_with(numbers)
 
     def bounds(self, numbers: Numbers) -> Bounds | None:
         """Range of an arc, from the chord between its ends outward; None of a circle."""
@@ -213,12 +213,10 @@ class PlaneContact(Contact, SpaceJoint):        # type: ignore[misc]
 
     kind, table = "contact", "rolling"
 
-    def __init__(self, name: str, first: Point, second: Point, radius: float, shape: Plane, restitution: float,
-                 friction: tuple[float, float], compliance: Compliance | None = None) -> None:
+    @staticmethod
+    def _geometry(shape: Any) -> dict[str, Any]:
         across = perpendicular(shape.direction)
-        frame = np.stack([shape.direction, across, np.cross(shape.direction, across)])
-        SpaceJoint.__init__(self, name, first, second, frames=(frame, np.eye(3)))
-        self._define(radius, shape, restitution, friction, compliance)
+        return {"frames": (np.stack([shape.direction, across, np.cross(shape.direction, across)]), np.eye(3))}
 
     def semiaxes_with(self, numbers: Numbers) -> tuple[float, float, float]:
         """Radius of the ball in m, three times."""
@@ -230,23 +228,13 @@ class SphereContact(Contact, SpaceJoint):      # type: ignore[misc]
 
     kind, table = "contact", "sphere"
 
-    def __init__(self, name: str, first: Point, second: Point, radius: float, shape: Sphere, restitution: float,
-                 friction: tuple[float, float], compliance: Compliance | None = None) -> None:
-        SpaceJoint.__init__(self, name, first, second, frames=(np.eye(3), np.eye(3)))
-        self._define(radius, shape, restitution, friction, compliance)
-
-    @property
-    def sign(self) -> int:      # type: ignore[override]
-        """1 outside of the sphere, -1 inside."""
-        return 1 if self.shape.outside else -1
-
-    def length_with(self, numbers: Numbers) -> float:
-        """Radius of the ball in m, negative inside of the sphere."""
-        return self.sign * self.radius_with(numbers)
+    @staticmethod
+    def _geometry(shape: Any) -> dict[str, Any]:
+        return {"frames": (np.eye(3), np.eye(3))}
 
     def along_with(self, numbers: Numbers) -> float:
         """Distance of the centres where they touch, in m."""
-        return self.shape.radius + self.length_with(numbers)
+        return self.distance_with(numbers)
 
 
 class Stop(Fixed):

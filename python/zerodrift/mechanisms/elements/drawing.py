@@ -12,6 +12,7 @@ from . import columns
 from .bodies import Body, Particle, Point
 from .contacts import switching
 from .forces import Actuator
+from .joints import Joint
 from .numbers import Numbers
 from .own_measures import OwnMeasure
 
@@ -32,6 +33,12 @@ class Drawing(NamedTuple):
     def dimension(self) -> int:
         """2 in the plane, 3 in space."""
         return len(self.gravity)
+
+    def measured_at(self, owner: str) -> Any:
+        """Body or point whose position a measure reads, by its name: "rod", "rod.end"; of a joint its second point."""
+        element, _, end = owner.partition(".")
+        found = self.elements[element]
+        return found.second if isinstance(found, Joint) else getattr(found, end) if end else found
 
     def of(self, kind: type | tuple[type, ...]) -> list[Any]:
         """Elements of a kind, in the order in which they were added."""

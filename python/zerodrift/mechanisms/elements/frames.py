@@ -159,10 +159,9 @@ class Shapes:
     def _in(self, dimension: int, shape: str) -> None:
         """Check that the mechanism of the body has this dimension."""
         if len(self.pose.origin) != dimension:
-            where = {2: "in the plane", 3: "in space"}
-            instead = "plane() or sphere()" if dimension == 2 else "line(), segment(), circle() or arc()"
-            raise WrongValue(f"a {shape} is a shape {where[dimension]}: {where[5 - dimension]} it must be {instead} of the body",
-                             "wrong-dimension")
+            own, where, verbs = (("in the plane", "in space", "plane() or sphere()") if dimension == 2 else
+                                 ("in space", "in the plane", "line(), segment(), circle() or arc()"))
+            raise WrongValue(f"a {shape} is a shape {own}: {where} it must be {verbs} of the body", "wrong-dimension")
 
     def line(self, start: Any, end: Any) -> Line:
         """The unbounded line through two places of the drawing, that moves with the body, for `Mechanism.contact`.
@@ -231,10 +230,7 @@ class Shapes:
         ValueError
             For a radius below zero.
         """
-        self._in(2, "circle")
-        radius = checks.number("radius of a circle", radius, least=0)
-        outside = checks.instance("outside of a circle", outside, bool, "True or False")
-        return Circle(self, self.pose.local(place("center", center, 2)), radius, outside, np.array([1.0, 0.0]))
+        return Circle(*self._round("circle", 2, center, radius, outside), np.array([1.0, 0.0]))
 
     def arc(self, center: Any, start: Any, end: Any, *, outside: bool = True) -> Circle:
         """An arc that moves with the body, counter-clockwise from one place of the drawing to another, for `Mechanism.contact`.
@@ -314,10 +310,13 @@ class Shapes:
         ValueError
             For a radius below zero.
         """
-        self._in(3, "sphere")
-        radius = checks.number("radius of a sphere", radius, least=0)
-        outside = checks.instance("outside of a sphere", outside, bool, "True or False")
-        return Sphere(self, self.pose.local(place("center", center, 3)), radius, outside)
+        return Sphere(*self._round("sphere", 3, center, radius, outside))
+
+    def _round(self, shape: str, dimension: int, center: Any, radius: Any, outside: Any) -> tuple[Any, np.ndarray, float, bool]:
+        """Body, centre in its frame, radius and side of a circle or a sphere, checked."""
+        self._in(dimension, shape)
+        return (self, self.pose.local(place("center", center, dimension)), checks.number(f"radius of a {shape}", radius, least=0),
+                checks.instance(f"outside of a {shape}", outside, bool, "True or False"))
 
 
 def place(argument: str, value: Any, dimension: int = 2) -> np.ndarray:

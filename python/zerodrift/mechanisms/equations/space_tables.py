@@ -107,9 +107,7 @@ class SpaceTables(Tables):
             return self.rotation_quantities(body)[COMPONENTS[9].index(measured)]
         if measured in AXES:
             owner, _, vector = owner.rpartition(".")
-            element, _, end = owner.partition(".")
-            of: Any = self.drawing.elements[element]
-            of = of.second if isinstance(of, SpaceJoint) else getattr(of, end) if end else of
+            of = self.drawing.measured_at(owner)
             found: tuple[Quantity, ...] = self.place_quantities(of) if vector == "position" else self.spin_quantities(of)
             return found[AXES.index(measured)]
         of = self.drawing.elements[owner]

@@ -179,11 +179,7 @@ class Tables:
     def _reading_of(self, name: str) -> Any:
         owner, _, quantity = name.rpartition(".")
         if quantity in ("x", "y"):
-            owner, _, _ = owner.rpartition(".")
-            element, _, end = owner.partition(".")
-            of = self.drawing.elements[element]
-            of = of.second if isinstance(of, Joint) else getattr(of, end) if end else of
-            return self.place_quantities(of)["xy".index(quantity)]
+            return self.place_quantities(self.drawing.measured_at(owner.rpartition(".")[0]))["xy".index(quantity)]
         of = self.drawing.elements[owner]
         if isinstance(of, Joint):
             if quantity == "transmission_angle":

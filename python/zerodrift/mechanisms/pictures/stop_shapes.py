@@ -44,9 +44,7 @@ def stops(posed: Posed) -> Iterator[Shape]:
 
 def _wall(owner: str, axis: int, limit: float, outward: float, name: str, posed: Posed) -> Shape:
     """Wall at a limit of a coordinate, beside the point as drawn."""
-    element, _, end = owner.partition(".")
-    of: Any = posed.parts.drawing.elements[element]
-    of = of.second if isinstance(of, Joint) else getattr(of, end) if end else of
+    of = posed.parts.drawing.measured_at(owner)
     place, inward = np.array(of.drawn_with(posed.parts.numbers) if isinstance(of, Point) else of.pose.origin), np.zeros(2)
     place[axis], inward[axis] = limit, -outward
     return Shape("wall", np.array([place, inward]), name)

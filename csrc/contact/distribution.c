@@ -9,19 +9,21 @@
  *
  * over t and z while mu becomes small. T and the square bound t and y where contacts may be pressed against each other without limit.
  */
-#include "share.h"
+#include "distribution.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "../linalg/roots.h"
 #include "../linalg/small.h"
+#include "equations.h"
 
 static const double PRECISION = 1e-13;      /* error of t, in units of the forces */
 static const double UNBOUNDED = 10;         /* T, in the same units */
-enum { SIZE = ZD_MAX_NULLS + 1, STEPS = 1000 };
+enum { SIZE = ZD_MAX_FREE + 1, STEPS = 1000 };
 
 typedef struct barrier {
-    zd_share *of;
+    zd_distribution *of;
     double unit, t, mu;
 } barrier;
 
@@ -95,12 +97,36 @@ static int improve(barrier *it)
     return 1;
 }
 
-void zd_share_find(zd_share *self)
+void zd_distribution_add(zd_distribution *self, double N, int is_free, const double *f, double coefficient)
 {
+    const int at = 3 * self->contacts;
+    if (self->contacts == ZD_MAX_DISTRIBUTED || self->components + 3 > ZD_MAX_FREE) return;
+    self->force[at] = N;
+    if (is_free) self->component[self->components++] = at;
+    for (int i = 0; i < 2; i++) {
+        self->force[at + 1 + i] = f ? f[i] : 0;
+        if (f) self->component[self->components++] = at + 1 + i;
+    }
+    self->friction[self->contacts++] = f ? coefficient : 0;
+}
+
+static void find_nulls(zd_distribution *self, double *K)
+{
+    const int n = self->components, width = 3 * self->contacts;
+    double null[ZD_MAX_FREE * ZD_MAX_FREE];
+    self->nulls = zd_equations_null_space(n, K, null);
+    zd_clear(self->nulls * width, self->null);
+    for (int k = 0; k < self->nulls; k++)
+        for (int i = 0; i < n; i++) self->null[k * width + self->component[i]] = null[k * n + i];
+}
+
+void zd_distribution_find(zd_distribution *self, double *K)
+{
+    find_nulls(self, K);
     barrier it = {.of = self, .unit = zd_max_abs(3 * self->contacts, self->force), .t = INFINITY};
     if (!(it.unit > 0)) it.unit = 1e-300;
     for (int i = 0; i < self->contacts; i++)
-        it.t = fmin(it.t, coefficient(&it, i) * self->force[3 * i] - zd_length_of_two(self->force[3 * i + 1], self->force[3 * i + 2]));
+        it.t = fmin(it.t, coefficient(&it, i) * self->force[3 * i] - zd_hypotenuse(self->force[3 * i + 1], self->force[3 * i + 2]));
     self->margin = it.t;
     it.t = fmin(it.t, 0) - it.unit;
     it.mu = it.unit;
