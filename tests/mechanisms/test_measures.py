@@ -118,3 +118,24 @@ def test_outputs_of_accelerations_and_frames():
     plain = zd.simulate(mounted(), 0.1, step=0.01)
     for name in ("box.acceleration", ("mount.force", "box")):
         np.testing.assert_allclose(sol[name], plain[name], rtol=1e-10, atol=1e-10)
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_components_are_as_many_as_their_names(dimension):
+    """Measures of all kinds, also sums of forces: of a compliant contact of several parts, and of joints on the ground."""
+    m = zd.Mechanism("m", gravity=(0, -9.81, 0)[:dimension], dimension=dimension)
+    for k in range(4):
+        ball = m.body(f"b{k}", 1.0, 0.1 if dimension == 2 else np.eye(3), at=(2.0 * k, 0.1, 0.0)[:dimension])
+        if k:
+            axis = {} if dimension == 2 else {"axis": (0, 0, 1)}
+            m.revolute(f"j{k}", m.ground, ball, at=(2.0 * k, 1.0, 0.0)[:dimension], **axis)
+    shape = m.ground.segment((-1, 0), (1, 0)) if dimension == 2 else m.ground.plane((0, 0, 0), (0, 1, 0))
+    m.contact("floor", m["b0"], shape, radius=0.2, stiffness=1e3)
+    sol = zd.simulate(m, 0.01)
+    for name in m.system().measures:
+        shape = np.shape(sol[name])[1:]
+        if len(shape) == 1:
+            assert np.array_equal(np.column_stack([sol[f"{name}.{axis}"] for axis in "xyz"[:shape[0]]]), sol[name])
+            with pytest.raises(KeyError):
+                sol[f"{name}.{'zw'[shape[0] - 2]}"]
+    assert sol["floor.force.y"][0] == pytest.approx(100.0)

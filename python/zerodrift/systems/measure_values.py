@@ -71,7 +71,7 @@ class Watching:
 
     def __init__(self, core: CoreSystem | None) -> None:
         self._core, self._measures = core, core.measures if core else ()
-        self.known = {measure.name: (i, measure.size) for i, measure in enumerate(self._measures)}
+        self.known = {measure.name: (i, self.core.measure_size(i)) for i, measure in enumerate(self._measures)}
         self._accelerations: weakref.WeakKeyDictionary[Any, tuple[np.ndarray, np.ndarray]] = weakref.WeakKeyDictionary()
 
     @property
@@ -96,7 +96,7 @@ class Watching:
     def size(self, name: str) -> int:
         """Number of components of what has that name, one if that is not a measure."""
         found = self.find(name)
-        return 1 if found is None or found.component is not None else self._measures[found.number].size
+        return 1 if found is None or found.component is not None else self.core.measure_size(found.number)
 
     def acting(self, names: Iterable[str], efforts: np.ndarray) -> Acting:
         """Efforts (k, n) along quantities. Those along coordinates that are not measures act in no reaction."""
