@@ -136,7 +136,7 @@ static void solve(void *memory, const double *force, const double *rhs, double *
 const zd_formulation zd_augmented = {
     .card = {
         .name = "augmented",
-        .summary = "Dependent variables; accelerations and multipliers at once from one symmetric matrix.",
+        .summary = "Dependent variables; accelerations and multipliers together, from one symmetric matrix.",
         .equations = "(8), (25)",
         .description = "Accelerations and multipliers are solved together from one symmetric matrix of M, C and its transpose, "
                        "which is factored with pivoting. M may be singular if the constraints leave no massless direction "

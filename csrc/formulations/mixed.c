@@ -74,7 +74,7 @@ static void pick(const void *memory, const zd_point *point, const double *pdot, 
 const zd_formulation zd_mixed = {
     .card = {
         .name = "mixed",
-        .summary = "Dependent coordinates and independent velocities: only position constraints can be violated.",
+        .summary = "Dependent coordinates, independent velocities: only position constraints can be violated.",
         .equations = "(17)",
         .description = "All coordinates p and as many velocities u as there are degrees of freedom are integrated, and v = D u "
                        "satisfies the velocity constraints identically; only positions drift and are corrected. Nonholonomic "

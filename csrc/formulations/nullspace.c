@@ -109,7 +109,7 @@ static void solve(void *memory, const double *force, const double *rhs, double *
 const zd_formulation zd_nullspace = {
     .card = {
         .name = "nullspace",
-        .summary = "Dependent variables; motion along the free directions beside the constraints, in one matrix.",
+        .summary = "Dependent variables; equations along the free directions and constraints, in one matrix.",
         .equations = "(9), (26)",
         .description = "The equations of motion are projected on the free directions D of (14), and combined with the constraints "
                        "(6) in one matrix of the size of v. Multipliers are computed only if they are required. M may be singular "

@@ -32,7 +32,7 @@ ZD_RUNGE_KUTTA_INTERPOLATION
 const zd_integrator zd_dormand_prince = {
     .card = {
         .name = "dormand_prince",
-        .summary = "The explicit Runge-Kutta method of Dormand and Prince with six stages, that of RK45.",
+        .summary = "The explicit Runge-Kutta method of Dormand and Prince with six stages, as in RK45.",
         .equations = "Dormand and Prince, 1980",
         .order = 5, .error_order = 4, .stability = 1.7,
         .description = "Order five with an error estimate of order four for adaptive steps: the method of SciPy's RK45 and of ode45. For "

@@ -14,7 +14,7 @@ ZD_RUNGE_KUTTA_STEP
 const zd_integrator zd_euler = {
     .card = {
         .name = "euler",
-        .summary = "Euler's explicit method: for comparison.",
+        .summary = "Euler's explicit method, for comparison.",
         .equations = "Euler, 1768",
         .order = 1, .stability = 2,
         .description = "One evaluation for each step. Its error is proportional to the step, and it adds energy to oscillations; it is "

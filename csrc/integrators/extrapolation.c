@@ -72,7 +72,7 @@ static int step(void *memory, const zd_rate *rate, double t, double h, double *y
 const zd_integrator zd_extrapolation = {
     .card = {
         .name = "extrapolation",
-        .summary = "The explicit midpoint rule in 2, 4, 6 and 8 parts, extrapolated: order eight, and no Runge-Kutta table.",
+        .summary = "The explicit midpoint rule in 2, 4, 6 and 8 parts, extrapolated, to order eight.",
         .equations = "Gragg, 1965; Bulirsch and Stoer, 1966",
         .order = 8, .stability = 3.39,
         .description = "A step is made in 2, 4, 6 and 8 parts by the explicit midpoint rule, and the four results are extrapolated to parts "

@@ -277,7 +277,7 @@ static int step_of_motion(void *memory, zd_motion *motion, double t, double h, d
 const zd_integrator zd_rattle = {
     .card = {
         .name = "rattle",
-        .summary = "Symplectic and symmetric, for long times of holonomic systems: energy errors stay bounded.",
+        .summary = "RATTLE: symplectic and symmetric, for long runs of holonomic systems; the energy error stays bounded.",
         .equations = "Andersen, 1983; Marsden and West, 2001",
         .order = 2, .stability = 2,
         .description = "The discrete equations of motion of the trapezoidal discrete Lagrangian: symplectic and symmetric, of "

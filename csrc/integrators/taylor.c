@@ -236,7 +236,7 @@ static int error(void *memory, const zd_rate *rate, double t1, double h, const d
 const zd_integrator zd_taylor = {
     .card = {
         .name = "taylor",
-        .summary = "Taylor's method of any order, by the series of a system whose expressions are known.",
+        .summary = "Taylor series of any order, for systems whose expressions are known.",
         .equations = "Jorba and Zou, section 3",
         .order = 20, .error_order = 19, .stability = 8.6,
         .description = "Each step sums the Taylor series of the motion at its start, to an order chosen by the tolerance. It is suited for "

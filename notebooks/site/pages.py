@@ -46,7 +46,7 @@ def write(folder: Path) -> None:
 
 
 CARDS = (("start/a_mechanism_in_ten_minutes", "slider_crank", "Ten minutes", "a mechanism of your own, a reaction, a film"),
-         ("generated/gallery", "jansen", "Gallery", "40 known mechanisms in motion, with their code"),
+         ("generated/gallery", "jansen", "Gallery", "known mechanisms in motion, with their code"),
          ("start/mechanisms_in_space", "stewart_platform", "In space", "axes, wheels, frames; graphs and forces"))
 
 

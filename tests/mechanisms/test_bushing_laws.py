@@ -158,11 +158,11 @@ def test_files_of_space_and_other_elements_that_read_it(tmp_path):
 
 
 @pytest.mark.parametrize(("given", "code", "sentence"), [
-    ({"force": lambda displacement: -displacement, "stiffness": 1.0}, "conflicting-arguments", "force of bushing 'mount' takes"),
-    ({"torque": lambda angle: -angle, "torsion": 1.0}, "conflicting-arguments", "torque of bushing 'mount' takes"),
+    ({"force": lambda displacement: -displacement, "stiffness": 1.0}, "conflicting-arguments", "force of bushing 'mount' must"),
+    ({"torque": lambda angle: -angle, "torsion": 1.0}, "conflicting-arguments", "torque of bushing 'mount' must be"),
     ({"force": 1.0}, "shape", "one law for each of 2 directions"),
     ({"force": (1.0, 2.0, 3.0)}, "shape", "one law for each of 2 directions"),
-    ({"of": {"x": "one.position.x"}}, "conflicting-arguments", "of of bushing 'mount' goes with force"),
+    ({"of": {"x": "one.position.x"}}, "conflicting-arguments", "of= of bushing 'mount' must be given with force"),
     ({"force": lambda length: (0, 0)}, "user-function", "force of bushing 'mount' has the argument 'length'"),
     ({"stiffness": lambda t: 5.0}, "wrong-type", r"lambda t, displacement: -k\(t\)")])
 def test_refusals(given, code, sentence):
@@ -171,7 +171,7 @@ def test_refusals(given, code, sentence):
 
 
 def test_a_matrix_and_a_parameter_of_its_own_name():
-    with refused("conflicting-arguments", "takes the place of torsion"):
+    with refused("conflicting-arguments", "must be given without torsion"):
         pair(3, stiffness=np.diag([1.0, 1, 1, 0, 0, 0]) + np.roll(np.eye(6), 3, 0) * 0.1, torque=lambda angle: -angle)
     m = pair(2)
     m.parameter("angle", 0.5)

@@ -315,7 +315,7 @@ def test_text_that_is_wrong(old, new, sentence, tmp_path):
 
 @pytest.mark.parametrize(("kind", "key", "value", "sentence"), [
     ("prismatic", "axis", [2.0, 0.0], "axis must have length 1"), ("rolling", "normal", [0.0, 0.0], "normal must have length 1"),
-    ("coupler", "law", 1.0, "it needs one of two, law or sum"), ("slot", "first", "bob", "a point must be a point of a body")])
+    ("coupler", "law", 1.0, "it must have law or sum"), ("slot", "first", "bob", "a point must be a point of a body")])
 def test_parts_of_joints_that_are_wrong(kind, key, value, sentence, tmp_path):
     def change(description):
         next(element for element in description["elements"] if element["kind"] == kind)[key] = value

@@ -186,7 +186,7 @@ def test_each_refusal_names_what_is_wrong():
     spring, bushing, force, torque = (force_verb(made_force(kind)) for kind in ("spring", "bushing", "force", "torque"))
     for call, error, text in (
             (lambda: spring(m, "F", 3.0, Q, stiffness=1), TypeError, "first must be a point"),
-            (lambda: spring(m, "F", P, Q), TypeError, r"spring 'F' needs one of stiffness and force, not none"),
+            (lambda: spring(m, "F", P, Q), TypeError, r"spring 'F' must have stiffness or force, not neither"),
             (lambda: spring(m, "F", P, Q, stiffness=-1), ValueError, "stiffness of 'F' must be at least 0"),
             (lambda: spring(m, "F", P, Q, stiffness=(1, 2)), ValueError, "stiffness of 'F'"),
             (lambda: spring(m, "F", P, Q, stiffness=1, length=-1), ValueError, "length of 'F' must be at least 0"),

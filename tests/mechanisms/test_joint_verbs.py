@@ -98,7 +98,7 @@ def test_each_refusal_names_what_is_wrong():
             (lambda: hinge(m, "J", first, second, length=1.0), TypeError, r"revolute\(\): got an unexpected keyword"),
             (lambda: rod(m, "J", first, second, length=0.0), ValueError, "length of 'J' must be greater than 0"),
             (lambda: rod(m, "J", first, second, at=(0, 0)), TypeError, r"rod\(\): got an unexpected keyword"),
-            (lambda: weld(m, "J", first, second.body, at=(0, 0)), TypeError, "at= of 'J' goes with two bodies"),
+            (lambda: weld(m, "J", first, second.body, at=(0, 0)), TypeError, "at= of 'J' must be given with two bodies"),
             (lambda: rod(m, "J", second, m.ground.point(at=second)), ValueError, "length of 'J', as drawn, must be greater"),
             (lambda: hinge(m, "bob", first, second), ValueError, "'bob'")):
         with pytest.raises(error, match=text):

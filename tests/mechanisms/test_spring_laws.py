@@ -123,12 +123,12 @@ def test_files_and_lifts_have_the_law(make, tmp_path):
 
 
 @pytest.mark.parametrize(("make", "given", "sentence"), [
-    (scene, {}, "spring 'k' needs one of stiffness and force, not none"),
-    (scene, {"stiffness": 1.0, "force": 1.0}, "spring 'k' needs one of stiffness and force, not both"),
-    (scene, {"force": 1.0, "length": 0.3}, "length of spring 'k' goes with stiffness"),
-    (scene, {"stiffness": 1.0, "of": {"a": "mass.position.x"}}, "of of spring 'k' goes with force"),
-    (swing, {"torque": 1.0, "angle": 0.0}, "angle of torsion spring 'k' goes with stiffness"),
-    (swing, {}, "torsion spring 'k' needs one of stiffness and torque, not none")])
+    (scene, {}, "spring 'k' must have stiffness or force, not neither"),
+    (scene, {"stiffness": 1.0, "force": 1.0}, "spring 'k' must have stiffness or force, not both"),
+    (scene, {"force": 1.0, "length": 0.3}, "length= of spring 'k' must be given with stiffness"),
+    (scene, {"stiffness": 1.0, "of": {"a": "mass.position.x"}}, "of= of spring 'k' must be given with force"),
+    (swing, {"torque": 1.0, "angle": 0.0}, "angle= of torsion spring 'k' must be given with stiffness"),
+    (swing, {}, "torsion spring 'k' must have stiffness or torque, not neither")])
 def test_either_a_stiffness_or_a_law(make, given, sentence):
     with refused("conflicting-arguments", sentence):
         make(2, **given)

@@ -8,7 +8,7 @@ static const zd_plane_joint_kind joints[] = {
     {
         .card = {
             .name = "revolute",
-            .summary = "Turns one body about a point of the other; a particle is held at that point.",
+            .summary = "Rotation about a point of the first body; a particle is fixed at that point.",
             .equations = "(3), (5)",
         },
         .inboard = ZD_TURNS,
@@ -18,7 +18,7 @@ static const zd_plane_joint_kind joints[] = {
     },
     /* Prismatic joint: the second body's point stays on an axis of the first, and both keep the angle between them. */
     {
-        .card = {.name = "prismatic", .summary = "Slides one body along an axis that turns with the other.",
+        .card = {.name = "prismatic", .summary = "Translation along an axis of the first body, without rotation.",
                  .equations = "(3), (5)"},
         .inboard = ZD_SLIDES,
         .rows = 2,
@@ -28,7 +28,7 @@ static const zd_plane_joint_kind joints[] = {
     },
     /* Weld: the points of both bodies coincide, and both keep the angle between them. */
     {
-        .card = {.name = "weld", .summary = "Fixes one body to the other.", .equations = "(3), (5)"},
+        .card = {.name = "weld", .summary = "Rigid connection of two bodies.", .equations = "(3), (5)"},
         .inboard = ZD_FIXED,
         .rows = 3,
         .row = {{.quantity = ZD_PLANE_X}, {.quantity = ZD_PLANE_Y}, {.quantity = ZD_PLANE_ANGLE, .zero = ZD_ZERO_ANGLE}},
@@ -37,7 +37,7 @@ static const zd_plane_joint_kind joints[] = {
     {
         .card = {
             .name = "rod",
-            .summary = "Keeps two points at a distance, as a massless rod with a hinge at each end.",
+            .summary = "Constant distance of two points: a massless rod with a hinge at each end.",
             .equations = "(3), (5)",
         },
         .rows = 1,
@@ -47,7 +47,7 @@ static const zd_plane_joint_kind joints[] = {
     },
     /* Slot: a point of the second body stays on a line of the first. */
     {
-        .card = {.name = "slot", .summary = "Guides a point along a line that turns with the first body.",
+        .card = {.name = "slot", .summary = "Point of the second body on a line of the first.",
                  .equations = "(3), (5)"},
         .rows = 1,
         .row = {{.quantity = ZD_PLANE_ACROSS, .zero = ZD_ZERO_ACROSS}},
@@ -57,7 +57,7 @@ static const zd_plane_joint_kind joints[] = {
     /* Wheel that rolls on a line: its centre, the second body's point, stays one radius above the line, and moves along it by the radius
      * times the angle it turns back. Both are holonomic in the plane, and the force that they exert acts at the contact. */
     {
-        .card = {.name = "rolling", .summary = "Rolls a wheel along a line of the first body without slip.",
+        .card = {.name = "rolling", .summary = "Wheel that rolls without slip along a line of the first body.",
                  .equations = "(3), (5)"},
         .rows = 2,
         .row = {
@@ -70,7 +70,7 @@ static const zd_plane_joint_kind joints[] = {
     },
     /* Round body on a circle of the first body: the distance of their centres, and the velocity around it. The length is negative inside. */
     {
-        .card = {.name = "circle", .summary = "Rolls a round body on a circle of the first body without slip.",
+        .card = {.name = "circle", .summary = "Round body that rolls without slip on a circle of the first body.",
                  .equations = "(3), (5)"},
         .rows = 2,
         .row = {
@@ -84,7 +84,7 @@ static const zd_plane_joint_kind joints[] = {
     {
         .card = {
             .name = "knife_edge",
-            .summary = "Lets a point of a body glide along a direction that turns with the body, and not across.",
+            .summary = "No velocity of a point across a direction that turns with its body.",
             .equations = "(5)",
         },
         .rows = 1,
@@ -102,7 +102,7 @@ const zd_plane_joint_kind *zd_plane_joint_kind_of(int row) { return row >= 0 && 
 static const zd_plane_element_kind elements[] = {
     /* Spring and damper along the line between two points: slack at its free length. Its force is positive where it pulls. */
     {
-        .card = {.name = "spring", .summary = "Spring with a damper between two points.", .equations = "(2), (28)"},
+        .card = {.name = "spring", .summary = "Spring and damper between two points.", .equations = "(2), (28)"},
         .quantities = 1,
         .quantity = {ZD_PLANE_DISTANCE}, .zero = {ZD_ZERO_LENGTH},
         .is_spring = 1,
@@ -112,7 +112,7 @@ static const zd_plane_element_kind elements[] = {
     {
         .card = {
             .name = "bushing",
-            .summary = "Joins two bodies softly, by springs and dampers along and about the axes of the first.",
+            .summary = "Elastic joint: springs and dampers along and about the axes of the first body.",
             .equations = "(2), (28)",
             .description = "It is slack as drawn.",
         },
@@ -124,7 +124,7 @@ static const zd_plane_element_kind elements[] = {
     },
     /* Torsion spring and damper about a joint. Its torque is that on the second body. */
     {
-        .card = {.name = "torsion_spring", .summary = "Spring with a damper about the axis of a joint.",
+        .card = {.name = "torsion_spring", .summary = "Spring and damper about the axis of a joint.",
                  .equations = "(2), (28)"},
         .quantities = 1,
         .quantity = {ZD_PLANE_ANGLE}, .zero = {ZD_ZERO_ANGLE},
@@ -136,7 +136,7 @@ static const zd_plane_element_kind elements[] = {
     {
         .card = {
             .name = "force",
-            .summary = "Force at a point along a direction that stays fixed, or turns with a body.",
+            .summary = "Force at a point, along a direction that is fixed or turns with a body.",
             .equations = "(2), (28)",
         },
         .quantities = 1,
@@ -146,7 +146,7 @@ static const zd_plane_element_kind elements[] = {
     },
     /* Torque on the second body, with its opposite on the first. */
     {
-        .card = {.name = "torque", .summary = "Torque on a body, and against another.", .equations = "(2), (28)"},
+        .card = {.name = "torque", .summary = "Torque on a body, with its reaction on another.", .equations = "(2), (28)"},
         .quantities = 1,
         .quantity = {ZD_PLANE_ANGLE}, .zero = {ZD_ZERO_NONE},
         .measure = "torque", .sign = 1,

@@ -35,7 +35,7 @@
 static const zd_space_joint_kind joints[] = {
     /* Revolute joint: the points of both bodies coincide, and an axis is common to both. */
     {
-        .card = {.name = "revolute", .summary = "Turns one body about an axis of the other.", .equations = "(3), (5)"},
+        .card = {.name = "revolute", .summary = "Rotation about an axis of the first body.", .equations = "(3), (5)"},
         .rows = 5,
         .row = {POINT_ON_POINT, PARALLEL_AXES},
         .coordinate = {ANGLE_ABOUT_AXIS},
@@ -44,7 +44,7 @@ static const zd_space_joint_kind joints[] = {
     },
     /* Prismatic joint: the second body's point stays on an axis of the first, and both keep their orientation to each other. */
     {
-        .card = {.name = "prismatic", .summary = "Slides one body along an axis that turns with the other.",
+        .card = {.name = "prismatic", .summary = "Translation along an axis of the first body, without rotation.",
                  .equations = "(3), (5)"},
         .rows = 5,
         .row = {POINT_ON_AXIS, SAME_ORIENTATION},
@@ -54,14 +54,14 @@ static const zd_space_joint_kind joints[] = {
     },
     /* Weld: the points of both bodies coincide, and both keep their orientation to each other. */
     {
-        .card = {.name = "weld", .summary = "Fixes one body to the other.", .equations = "(3), (5)"},
+        .card = {.name = "weld", .summary = "Rigid connection of two bodies.", .equations = "(3), (5)"},
         .rows = 6,
         .row = {POINT_ON_POINT, SAME_ORIENTATION},
         .is_inboard = 1,
     },
     /* Cylindrical joint: the second body's point stays on an axis of the first, which is common to both. */
     {
-        .card = {.name = "cylindrical", .summary = "Turns one body about an axis of the other, and slides it along.",
+        .card = {.name = "cylindrical", .summary = "Rotation about an axis of the first body, and translation along it.",
                  .equations = "(3), (5)"},
         .rows = 4,
         .row = {POINT_ON_AXIS, PARALLEL_AXES},
@@ -71,7 +71,7 @@ static const zd_space_joint_kind joints[] = {
     },
     /* Screw: a cylindrical joint whose displacement follows its angle, right-handed where the length for each radian is positive. */
     {
-        .card = {.name = "screw", .summary = "Turns one body about an axis of the other, along which it advances.",
+        .card = {.name = "screw", .summary = "Rotation about an axis of the first body, with a proportional advance along it.",
                  .equations = "(3), (5)"},
         .rows = 5,
         .row = {POINT_ON_AXIS, PARALLEL_AXES,
@@ -84,7 +84,7 @@ static const zd_space_joint_kind joints[] = {
      * angles are those by which a massless cross with arms along these two is turned against the first body, and the second against the
      * cross. */
     {
-        .card = {.name = "universal", .summary = "Joins two bodies by a cross, with an axis on each.",
+        .card = {.name = "universal", .summary = "Universal joint: a cross with one axis on each body.",
                  .equations = "(3), (5)"},
         .rows = 4,
         .row = {POINT_ON_POINT, {.pick = {.quantity = ZD_SPACE_COSINE, .of_first = A, .of_second = N, .zero = ZD_SPACE_ZERO_ALONG}}},
@@ -97,7 +97,7 @@ static const zd_space_joint_kind joints[] = {
     },
     /* Spherical joint: the points of both bodies coincide. */
     {
-        .card = {.name = "spherical", .summary = "Turns one body about a point of the other; a particle is held at that point.",
+        .card = {.name = "spherical", .summary = "Rotation about a point of the first body; a particle is fixed at that point.",
                  .equations = "(3), (5)"},
         .rows = 3,
         .row = {POINT_ON_POINT},
@@ -105,7 +105,7 @@ static const zd_space_joint_kind joints[] = {
     },
     /* Planar joint: the second body's point stays in a plane of the first, whose normal, the axis, is common to both. */
     {
-        .card = {.name = "planar", .summary = "Slides one body on a plane of the other, and turns it about the plane's normal.",
+        .card = {.name = "planar", .summary = "Translation in a plane of the first body, and rotation about its normal.",
                  .equations = "(3), (5)"},
         .rows = 3,
         .row = {POINT_IN_PLANE(A), PARALLEL_AXES},
@@ -116,7 +116,7 @@ static const zd_space_joint_kind joints[] = {
     },
     /* Rod: two points keep their distance. Its one row is a length, so that its multiplier is a force. */
     {
-        .card = {.name = "rod", .summary = "Keeps two points at a distance, as a massless rod with a ball at each end.",
+        .card = {.name = "rod", .summary = "Constant distance of two points: a massless rod with a ball at each end.",
                  .equations = "(3), (5)"},
         .rows = 1,
         .row = {{.pick = {.quantity = ZD_SPACE_DISTANCE, .zero = ZD_SPACE_ZERO_LENGTH}}},
@@ -125,7 +125,7 @@ static const zd_space_joint_kind joints[] = {
     },
     /* Slot: a point of the second body stays on a line of the first. */
     {
-        .card = {.name = "slot", .summary = "Guides a point along a line that turns with the first body.",
+        .card = {.name = "slot", .summary = "Point of the second body on a line of the first.",
                  .equations = "(3), (5)"},
         .rows = 2,
         .row = {POINT_ON_AXIS},
@@ -138,7 +138,7 @@ static const zd_space_joint_kind joints[] = {
     {
         .card = {
             .name = "rolling",
-            .summary = "Rolls a disc, a sphere or an ellipsoid on a plane of the first body without slip.",
+            .summary = "Disc, sphere or ellipsoid that rolls without slip on a plane of the first body.",
             .equations = "(3), (5)",
         },
         .rows = 3,
@@ -151,7 +151,7 @@ static const zd_space_joint_kind joints[] = {
     },
     /* Bearing: a revolute joint of which the first two multipliers are the components of its radial force. */
     {
-        .card = {.name = "bearing", .summary = "Turns one body about an axis of the other, with its force along and across the axis.",
+        .card = {.name = "bearing", .summary = "Rotation about an axis of the first body, with the force along and across the axis.",
                  .equations = "(3), (5)"},
         .rows = 5,
         .row = {POINT_ON_AXIS, POINT_IN_PLANE(A), PARALLEL_AXES},
@@ -161,7 +161,7 @@ static const zd_space_joint_kind joints[] = {
     /* Ball on a sphere of the first body: the distance of their centres, and the velocity around it. The length is its radius, negative
      * inside. */
     {
-        .card = {.name = "sphere", .summary = "Rolls a ball on a sphere of the first body without slip.", .equations = "(3), (5)"},
+        .card = {.name = "sphere", .summary = "Ball that rolls without slip on a sphere of the first body.", .equations = "(3), (5)"},
         .rows = 3,
         .row = {
             {.pick = {.quantity = ZD_SPACE_DISTANCE, .zero = ZD_SPACE_ZERO_ALONG}},
@@ -175,7 +175,7 @@ static const zd_space_joint_kind joints[] = {
     {
         .card = {
             .name = "knife_edge",
-            .summary = "Lets a point of a body glide along a blade that turns with the body, and not across.",
+            .summary = "No velocity of a point across a blade that turns with its body.",
             .equations = "(5)",
         },
         .rows = 1,
@@ -192,7 +192,7 @@ const zd_space_joint_kind *zd_space_joint_kind_of(int row) { return row >= 0 && 
 static const zd_space_element_kind elements[] = {
     /* Spring and damper along the line between two points: slack at its free length. Its force is positive where it pulls. */
     {
-        .card = {.name = "spring", .summary = "Spring with a damper between two points.", .equations = "(2), (28)"},
+        .card = {.name = "spring", .summary = "Spring and damper between two points.", .equations = "(2), (28)"},
         .quantities = 1,
         .pick = {{.quantity = ZD_SPACE_DISTANCE, .zero = ZD_SPACE_ZERO_LENGTH}},
         .is_spring = 1,
@@ -204,7 +204,7 @@ static const zd_space_element_kind elements[] = {
     {
         .card = {
             .name = "bushing",
-            .summary = "Joins two bodies softly, by springs and dampers along and about the axes of the first.",
+            .summary = "Elastic joint: springs and dampers along and about the axes of the first body.",
             .equations = "(2), (28)",
             .description = "In space the angles about its directions are the components of the rotation vector: the unit axis about "
                            "which the second body has rotated, as seen from the first, times the angle. The angle is counted up to half a "
@@ -221,7 +221,7 @@ static const zd_space_element_kind elements[] = {
     },
     /* Torsion spring and damper about the axis of a joint. Its torque is that on the second body. */
     {
-        .card = {.name = "torsion_spring", .summary = "Spring with a damper about the axis of a joint.",
+        .card = {.name = "torsion_spring", .summary = "Spring and damper about the axis of a joint.",
                  .equations = "(2), (28)"},
         .quantities = 1,
         .pick = {{.quantity = ZD_SPACE_ANGLE, .of_first = N, .of_second = N}},
@@ -233,7 +233,7 @@ static const zd_space_element_kind elements[] = {
     {
         .card = {
             .name = "force",
-            .summary = "Force at a point along a direction that stays fixed, or turns with a body.",
+            .summary = "Force at a point, along a direction that is fixed or turns with a body.",
             .equations = "(2), (28)",
         },
         .quantities = 1,
@@ -243,7 +243,7 @@ static const zd_space_element_kind elements[] = {
     },
     /* Torque on the second body about an axis of the first, with its opposite on the first. */
     {
-        .card = {.name = "torque", .summary = "Torque on a body, and against another.", .equations = "(2), (28)"},
+        .card = {.name = "torque", .summary = "Torque on a body, with its reaction on another.", .equations = "(2), (28)"},
         .quantities = 1,
         .pick = {{.quantity = ZD_SPACE_TURN, .of_first = A}},
         .axes = 1,

@@ -175,7 +175,7 @@ def increasing(name: str, value: Any, first: float, last: float) -> np.ndarray:
     if array.ndim != 1:
         raise WrongValue(f"{name} must have shape (k,), not {array.shape}", "shape")
     if not array.size:
-        raise WrongValue(f"{name} must increase, and needs at least one time", "not-increasing")
+        raise WrongValue(f"{name} must increase, and have at least one time", "not-increasing")
     falls = np.diff(array, prepend=-np.inf) <= 0
     if falls.any():
         raise WrongValue(f"{name} must increase, but {_at(array, falls)} comes after {float(array[falls.argmax() - 1])}",

@@ -24,8 +24,6 @@ HINTS = {("link", "com"): ". Its centre of mass is its middle; that of m.body(co
 def verb(method: Callable[..., Any]) -> Callable[..., Any]:
     """Return the method with errors that name it, the unknown argument and those that it takes."""
     signature = inspect.signature(method)
-    if any(each.kind is each.VAR_KEYWORD for each in signature.parameters.values()):
-        return method
 
     @functools.wraps(method)
     def checked(self: Any, *arguments: Any, **named: Any) -> Any:
@@ -40,18 +38,20 @@ def verb(method: Callable[..., Any]) -> Callable[..., Any]:
 
 def _explained(name: str, signature: inspect.Signature, arguments: tuple[Any, ...], named: dict[str, Any],
                error: TypeError) -> str:
-    known = list(signature.parameters)[1:]
-    takes = f"it takes {', '.join(known) or 'none'}"
-    if unknown := [each for each in named if each not in known]:
+    every = list(signature.parameters.values())[1:]
+    others = [f"**{each.name}" for each in every if each.kind is each.VAR_KEYWORD]
+    known = [each.name for each in every if each.kind is not each.VAR_KEYWORD]
+    takes = f"it takes {', '.join(known + others) or 'none'}"
+    if unknown := [] if others else [each for each in named if each not in known]:
         meant = next((each for each in known if unknown[0] in WORDS.get(each, ())), None)
         unit = f"{meant}= is in {UNITS[meant]}; " if meant in UNITS else f"use {meant}=; " if meant else ""
         hint = HINTS.get((name, unknown[0]), "")
         return f"{name} has no argument {unknown[0]!r}; {unit}{takes}{hint}"
-    places = [each.name for each in signature.parameters.values() if each.kind is not each.KEYWORD_ONLY][1:]
+    places = [each.name for each in every if each.kind not in (each.KEYWORD_ONLY, each.VAR_KEYWORD)]
     if len(arguments) > len(places):
         return (f"{name} must be given {' and '.join(places) or 'nothing'} by position and other arguments by name, not "
                 f"{len(arguments)} by position; {takes}")
     what = f"{name} {arguments[0]!r}" if arguments and isinstance(arguments[0], str) else name
-    missing = [each.name for each in signature.parameters.values() if each.default is each.empty and each.name != "self"
+    missing = [each.name for each in every if each.default is each.empty and each.name in known
                and each.name not in named and each.name not in places[:len(arguments)]]
-    return f"{what} needs {' and '.join(missing)}; {takes}" if missing else f"{name}: {error}"
+    return f"{what} must have {' and '.join(missing)}; {takes}" if missing else f"{name}: {error}"

@@ -78,7 +78,7 @@ def grid(values: Mapping[str, ArrayLike] | None = None, /, **named: ArrayLike) -
             raise WrongType(f"{name!r} is given twice", "duplicate-name")
     columns = {name: _column(name, each) for name, each in {**(values or {}), **named}.items()}
     if not columns or any(each.ndim == 0 or not len(each) for each in columns.values()):
-        raise WrongValue("a grid needs parameters, and at least one value of each, in an array or a list", "missing-argument")
+        raise WrongValue("a grid must have parameters, and at least one value of each, in an array or a list", "missing-argument")
     return Grid(columns)
 
 

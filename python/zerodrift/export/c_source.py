@@ -16,7 +16,7 @@ from ..errors import ExistingFile
 from .block import Chosen, choose, written
 from .core_files import ENTRIES, CoreFiles, entry
 
-MAKEFILE = """CFLAGS = -O2 -std=c11 -ffp-contract=off -I.
+MAKEFILE = """CFLAGS = -O1 -std=c11 -ffp-contract=off -I.
 OBJECTS := $(patsubst %.c,%.o,$(shell find . -name '*.c'))
 
 main: $(OBJECTS)

@@ -155,7 +155,7 @@ def _read_links(links: Any, points: Mapping[str, Any]) -> dict[str, tuple[str, .
             raise WrongValue(f"links[{link!r}] must have each of its points once, not {checks.shown(links[link])}",
                              "duplicate-name")
         if link in points:
-            raise WrongValue(f"{link!r} is a link and a point: each needs a name of its own", "duplicate-name")
+            raise WrongValue(f"{link!r} is a link and a point: each must have its own name", "duplicate-name")
     used = {name for names in read.values() for name in names}
     for name in points:
         if name not in used:

@@ -217,7 +217,7 @@ def view(*solutions: Solution | Mechanism, forces: bool | Sequence[Any] = False,
         return live_view(solutions[0], sliders, speed=speed, wanted=Wanted(forces, path, graphs, names))
     _refuse_given({"sliders": sliders}, "must be left out without live=True; zd.explore has sliders of finished runs")
     if not solutions:
-        raise WrongType("view needs at least one solution, as zd.simulate returns", "missing-argument")
+        raise WrongType("view must have at least one solution, as zd.simulate returns", "missing-argument")
     for sol in solutions:
         checks.instance("each of solutions", sol, Solution, A_SOLUTION if not isinstance(sol, Makes) else
                         f"{A_SOLUTION}, or with live=True a mechanism")

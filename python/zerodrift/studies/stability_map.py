@@ -143,12 +143,12 @@ def stability_map(
     span = checks.span(t_span)
     values = np.array([checks.number("values", value) for value in values])
     if not values.size:
-        raise WrongValue("values needs at least one entry", "missing-argument")
+        raise WrongValue("values must have at least one entry", "missing-argument")
     benches = _benches(system, span, p0, v0, values, reference)
     steps = default_steps(benches[0].system, span, p0, v0) if steps is None else steps
     steps = np.unique([checks.number("steps", step, above=0, code="step-size") for step in steps])
     if not steps.size:
-        raise WrongValue("steps needs at least one entry", "missing-argument")
+        raise WrongValue("steps must have at least one entry", "missing-argument")
     combinations = {name: [_settings(name, way(value) if callable(way) else way, steps) for value in values]
                     for name, way in (WAYS if ways is None else ways).items()}
     label = parameter or ("gain α of Baumgarte's method [1/s]" if ways is None else "value")

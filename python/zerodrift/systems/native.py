@@ -146,7 +146,7 @@ def native(
                  "units": units, "v0": v0, "scratch": scratch or None, "name": name}
         return _described_by_library(function, symbol, parameters, [key for key, value in given.items() if value is not None])
     if terms is None:
-        raise WrongType("terms is needed with coordinates: the names of the terms that the function writes", "compiled-function")
+        raise WrongType("terms must be given with coordinates: names of the terms that the function writes", "compiled-function")
     return Native(gateway.find(function, symbol, version), coordinates=coordinates, terms=terms, velocities=velocities,
                   constraints=(constraints, nonholonomic), parameters=parameters, quaternions=quaternions, structure=structure,
                   units=units, start=(p0, v0), scratch=scratch, name=name)
@@ -240,10 +240,10 @@ class NativeKind(SystemOfKind):
 
 def _described_by_library(library: Any, symbol: Any, parameters: Any, others: list[str]) -> NativeKind:
     if not isinstance(library, str | Path):
-        raise WrongType(f"coordinates are needed: only a shared library can describe a system itself, not {library!r}",
+        raise WrongType(f"coordinates must be given: only a shared library can describe a system itself, not {library!r}",
                         "compiled-function")
     if others:
-        raise WrongType(f"{others[0]} is for a function, with its coordinates: {KIND}{symbol} says it itself",
+        raise WrongType(f"{others[0]} must be left out without coordinates: {KIND}{symbol} declares it",
                         "compiled-function")
     found = gateway.in_library(library, KIND + symbol if isinstance(symbol, str) and symbol else symbol)
     return _from_library(found, checks.parameters(parameters))

@@ -57,7 +57,7 @@ class OneSided:
     def __post_init__(self) -> None:
         checks.restitution("restitution", self.restitution)
         if self.coefficients[0] and self.slip is None:
-            raise WrongValue("friction needs slip, the slip velocity", "missing-argument")
+            raise WrongValue("friction must be given with slip, the slip velocity", "missing-argument")
 
     @property
     def coefficients(self) -> tuple[float, float]:

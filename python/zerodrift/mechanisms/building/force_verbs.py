@@ -86,7 +86,7 @@ class ForceVerbs(Elements):
         given = {"angle": angle, "displacement": displacement, "speed": speed, "torque": torque, "force": force}
         words = [word for word, value in given.items() if value is not None]
         if len(words) != 1:
-            raise WrongType(f"motor {name!r} needs one of {', '.join(given)}, not {' and '.join(words) or 'none'}",
+            raise WrongType(f"motor {name!r} must have one of {', '.join(given)}, not {' and '.join(words) or 'none'}",
                             "conflicting-arguments")
         drives = words[0]
         joint, which = self._joint_angle(f"joint of motor {name!r}", joint, DRIVES[drives])
@@ -166,7 +166,7 @@ class ForceVerbs(Elements):
         name = self._new_name(name, "actuator")
         first, second = self._different(name, self._point("first", first), self._point("second", second))
         if (length is None) == (force is None):
-            raise WrongType(f"actuator {name!r} needs one of length and force, not {'none' if length is None else 'both'}",
+            raise WrongType(f"actuator {name!r} must have length or force, not {'neither' if length is None else 'both'}",
                             "conflicting-arguments")
         drives, given = ("length", length) if force is None else ("force", force)
         law = self._law(f"{drives} of actuator {name!r}", given, of, reactions=drives == "force",
@@ -265,7 +265,7 @@ class ForceVerbs(Elements):
         """Unit vector of a force in the drawing, (dimension,), and the magnitude along it."""
         is_vector = isinstance(value, (list, tuple, np.ndarray)) and np.ndim(value) == 1
         if value is None:
-            raise WrongType(f"force {name!r} needs value=, its magnitude in N, whose direction is along=; or value= as a vector, "
+            raise WrongType(f"force {name!r} must have value=, its magnitude in N along along=; or value= as a vector, "
                             f"such as {VECTORS[self.dimension]}", "missing-argument")
         if is_vector and along is not None:
             raise WrongValue(f"value of force {name!r} must be a number or a function, not a vector, where along= is given",
@@ -273,7 +273,7 @@ class ForceVerbs(Elements):
         if is_vector:
             return self._direction(f"value of force {name!r}", value), float(np.linalg.norm(value))
         if along is None:
-            raise WrongType(f"force {name!r} needs along=, its direction in the drawing, such as {VECTORS[self.dimension]}, "
+            raise WrongType(f"force {name!r} must have along=, its direction in the drawing, such as {VECTORS[self.dimension]}, "
                             "as value= is its magnitude", "missing-argument")
         return self._direction(f"along of {name!r}", along), value
 
@@ -326,7 +326,7 @@ class ForceVerbs(Elements):
 
     def _space_torque(self, name: str, body: Body, against: Body, law: Any, axis: Any, frame: Any) -> Torque:
         if axis is None:
-            raise WrongType(f"torque {name!r} needs axis=, the direction in the drawing about which it acts", "missing-argument")
+            raise WrongType(f"torque {name!r} must have axis=, the direction about which it acts", "missing-argument")
         frame = self.ground if frame is None else self._body("frame", frame)
         self._turning(name, "the frame of", frame)
         if against is not self.ground and frame is not self.ground:

@@ -75,7 +75,7 @@ class JointVerbs(TableVerbs, SpaceJointVerbs):
         """
         if ring is not None:
             if normal is not None or semiaxes is not None or (axle is None) != (self.dimension == 2):
-                raise WrongType(f"ring of {name!r} goes with radius=, at= and, in space, axle=", "conflicting-arguments")
+                raise WrongType(f"ring= of {name!r} must be given with radius=, at= and in space axle=", "conflicting-arguments")
             return self._on_ring(name, first, second, radius, ring, at, {} if axle is None else {"axis": axle})
         if self.dimension == 3:
             return self._space_rolling(name, first, second, radius, at, normal, axle, semiaxes)

@@ -36,9 +36,10 @@ class Elements:
 
     def __init_subclass__(cls) -> None:
         """Let errors of arguments name the method."""
-        for name, method in list(vars(cls).items()):
-            if inspect.isfunction(method) and not name.startswith("_"):
-                setattr(cls, name, verb(method))
+        for owner in (cls, Elements):
+            for name, method in list(vars(owner).items()):
+                if inspect.isfunction(method) and not name.startswith("_") and not hasattr(method, "__wrapped__"):
+                    setattr(owner, name, verb(method))
 
     def __init__(self, parameters: Any) -> None:
         self.ground = SpaceGround() if self.dimension == 3 else Ground()
@@ -235,7 +236,7 @@ class Elements:
         first, second = self._named(f"first of {name!r}", first), self._named(f"second of {name!r}", second)
         is_body = [isinstance(side, Body) and side.turns for side in (first, second)]
         if at is not None and not all(is_body):
-            raise WrongType(f"at= of {name!r} goes with two bodies; with a point, the point says where the joint is",
+            raise WrongType(f"at= of {name!r} must be given with two bodies; with a point, the joint is at the point",
                             "conflicting-arguments")
         if at is not None:
             at = self._drawn("at", at)
@@ -246,8 +247,8 @@ class Elements:
 
     def _given_sides(self, name: str, first: Any, second: Any, is_body: list[bool]) -> tuple[Point, Point]:
         if all(is_body):
-            raise WrongType(f"{name!r} joins two bodies, {first.name!r} and {second.name!r}: it needs at=, its place as drawn, "
-                            "or a point of one of them", "missing-argument")
+            raise WrongType(f"{name!r} joins two bodies, {first.name!r} and {second.name!r}: it must have at=, its position as "
+                            "drawn, or a point of one of them", "missing-argument")
         if is_body[0]:
             second = self._point("second", second)
             return self._body("first", first).point(at=second.drawn), second

@@ -36,7 +36,7 @@ class SpaceJointVerbs(Elements):
         """Ellipsoid on a plane: its shape along the rows of a frame of the second body."""
         name = self._new_name(name, "joint")
         if (radius is None) == (semiaxes is None):
-            raise WrongType(f"{name!r} needs radius=, of a sphere or with axle= of a disc, or else semiaxes=, of an ellipsoid",
+            raise WrongType(f"{name!r} must have radius= for a sphere, with axle= for a disc, or semiaxes= for an ellipsoid",
                             "missing-argument")
         normal = self._direction(f"normal of {name!r}", self._upwards() if normal is None else normal)
         first, second = self._body("first", first), self._named("second", second)
@@ -61,7 +61,7 @@ class SpaceJointVerbs(Elements):
         """Rows (3, 3) of a frame in the body's, and the semiaxes along them."""
         if semiaxes is not None:
             if axle is not None:
-                raise WrongType(f"{name!r} has semiaxes, of an ellipsoid, and no axle", "conflicting-arguments")
+                raise WrongType(f"{name!r} must have no axle= with semiaxes=, those of an ellipsoid", "conflicting-arguments")
             given = checks.vector(f"semiaxes of {name!r}", semiaxes, 3)
             return np.eye(3), three(checks.number(f"each of the semiaxes of {name!r}", float(each), above=0) for each in given)
         radius = checks.number(f"radius of {name!r}", radius, above=0)

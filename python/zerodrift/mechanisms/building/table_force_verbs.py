@@ -164,12 +164,12 @@ def _laws(m: Elements, bushing: TableForce, given: dict[str, Any]) -> dict[str, 
         if given[word] is None:
             continue
         if np.any(given[stiffness]) or bushing.coupled is not None:
-            raise WrongType(f"{word} {what} takes the place of {stiffness}", "conflicting-arguments")
+            raise WrongType(f"{word} {what} must be given without {stiffness}, which it replaces", "conflicting-arguments")
         along = [each[2] for each in paths(bushing.row) if each[2].startswith(word)]
         for path, law in zip(along, m._components(f"{word} {what}", given[word], len(along), own, given["of"]), strict=True):
             found[path] = m._law(f"{path} {what}", law, given["of"], reactions=True, own=bushing)
     if not found and given["of"] is not None:
-        raise WrongType(f"of {what} goes with force and torque", "conflicting-arguments")
+        raise WrongType(f"of= {what} must be given with force or torque", "conflicting-arguments")
     return found
 
 
@@ -177,10 +177,10 @@ def _check_one(what: str, law: str, given: dict[str, Any]) -> None:
     """Check that a spring has either a stiffness or a law, and no argument that belongs to the other."""
     has_law = given[law] is not None
     if has_law == (given["stiffness"] is not None):
-        raise WrongType(f"{what} needs one of stiffness and {law}, not {'both' if has_law else 'none'}", "conflicting-arguments")
+        raise WrongType(f"{what} must have stiffness or {law}, not {'both' if has_law else 'neither'}", "conflicting-arguments")
     for word in ("length", "angle") if has_law else () if checks.varies(given["stiffness"]) else ("of",):
         if given.get(word) is not None:
-            raise WrongType(f"{word} of {what} goes with {'stiffness' if has_law else law}", "conflicting-arguments")
+            raise WrongType(f"{word}= of {what} must be given with {'stiffness' if has_law else law}", "conflicting-arguments")
     if not has_law and "angle" in given:
         given["angle"] = given["angle"] or 0.0
 
@@ -215,7 +215,7 @@ def _directions(m: Elements, entry: ElementKind, name: str, given: dict[str, Any
     if not entry.axes:
         return {}
     if axis is None and entry.axes == 1:
-        raise WrongType(f"{name!r} needs axis=, its direction in the drawing", "missing-argument")
+        raise WrongType(f"{name!r} must have axis=, its direction in the drawing", "missing-argument")
     first, second = ends
     m._turning(name, "axis of", first.body)
     axis = None if axis is None else m._direction(f"axis of {name!r}", axis)
@@ -227,7 +227,7 @@ def _directions(m: Elements, entry: ElementKind, name: str, given: dict[str, Any
 def _frames(name: str, first: Point, second: Point, axis: Any, normal: Any) -> tuple[np.ndarray, np.ndarray]:
     """Three directions in the frames of both bodies; by default the axes of the first body."""
     if axis is None and normal is not None:
-        raise WrongType(f"normal of {name!r} goes with axis=, to which it is made perpendicular", "missing-argument")
+        raise WrongType(f"normal= of {name!r} must be given with axis=, to which it is made perpendicular", "missing-argument")
     frame = first.body.pose.rotation.T      # type: ignore[attr-defined]
     if axis is not None:
         if normal is not None and np.linalg.norm(np.cross(axis, normal)) < FLAT:

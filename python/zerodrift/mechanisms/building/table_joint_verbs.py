@@ -218,7 +218,7 @@ def _directions(m: Elements, joint: type[SpaceJoint], name: Any, given: Any) -> 
     word = axis_word(joint)
     if word != "axes":
         if given is None:
-            raise WrongType(f"{name!r} needs {word}=, the direction in the drawing about which it turns", "missing-argument")
+            raise WrongType(f"{name!r} must have {word}=, the direction in the drawing about which it turns", "missing-argument")
         return (m._direction(f"{word} of {name!r}", given),)
     if np.ndim(given) == 0 or len(given) != 2:
         raise WrongValue(f"axes of {name!r} must be two directions, one of the first body and one of the second", "shape")

@@ -115,7 +115,7 @@ class TableVerbs(Elements):
                  damping: float = 0.0, cut: bool = False, friction_torque: float | tuple[float, float] | None = None,
                  friction: float | tuple[float, float] | None = None, radius: float | None = None,
                  active: bool | None = None) -> Revolute:
-        """Turns one body about a point of the other; a particle is held at that point.
+        """Rotation about a point of the first body; a particle is fixed at that point.
 
         Parameters
         ----------
@@ -169,7 +169,7 @@ class TableVerbs(Elements):
                   damping: float = 0.0, cut: bool = False, friction_force: float | tuple[float, float] | None = None,
                   friction: float | tuple[float, float] | None = None, guide: float | None = None,
                   active: bool | None = None) -> Prismatic:
-        """Slides one body along an axis that turns with the other.
+        """Translation along an axis of the first body, without rotation.
 
         Parameters
         ----------
@@ -221,7 +221,7 @@ class TableVerbs(Elements):
 
     def weld(self, name: str, first: Side, second: Side, *, at: ArrayLike | None = None, cut: bool = False,
              active: bool | None = None) -> Weld:
-        """Fixes one body to the other.
+        """Rigid connection of two bodies.
 
         Parameters
         ----------
@@ -260,7 +260,7 @@ class TableVerbs(Elements):
         """
 
     def rod(self, name: str, first: Side, second: Side, *, length: float | None = None, active: bool | None = None) -> Rod:
-        """Keeps two points at a distance, as a massless rod with a hinge at each end.
+        """Constant distance of two points: a massless rod with a hinge at each end.
 
         Parameters
         ----------
@@ -297,7 +297,7 @@ class TableVerbs(Elements):
 
     def slot(self, name: str, first: Side, second: Side, *, axis: ArrayLike, at: ArrayLike | None = None, cut: bool = False,
              active: bool | None = None) -> Slot:
-        """Guides a point along a line that turns with the first body.
+        """Point of the second body on a line of the first.
 
         Parameters
         ----------
@@ -340,7 +340,7 @@ class TableVerbs(Elements):
 
     def knife_edge(self, name: str, point: Side, *, along: ArrayLike, normal: ArrayLike | None = None,
                    active: bool | None = None) -> KnifeEdge:
-        """Lets a point of a body glide along a direction that turns with the body, and not across.
+        """No velocity of a point across a direction that turns with its body.
 
         Parameters
         ----------
@@ -382,7 +382,7 @@ class TableVerbs(Elements):
 
     def cylindrical(self, name: str, first: Side, second: Side, *, axis: ArrayLike, at: ArrayLike | None = None,
                     cut: bool = False, active: bool | None = None) -> SpaceCylindrical:
-        """Turns one body about an axis of the other, and slides it along.
+        """Rotation about an axis of the first body, and translation along it.
 
         Parameters
         ----------
@@ -425,7 +425,7 @@ class TableVerbs(Elements):
 
     def planar(self, name: str, first: Side, second: Side, *, normal: ArrayLike, at: ArrayLike | None = None, cut: bool = False,
                active: bool | None = None) -> SpacePlanar:
-        """Slides one body on a plane of the other, and turns it about the plane's normal.
+        """Translation in a plane of the first body, and rotation about its normal.
 
         Parameters
         ----------
@@ -468,7 +468,7 @@ class TableVerbs(Elements):
 
     def screw(self, name: str, first: Side, second: Side, *, axis: ArrayLike, pitch: float, at: ArrayLike | None = None,
               cut: bool = False, active: bool | None = None) -> SpaceScrew:
-        """Turns one body about an axis of the other, along which it advances.
+        """Rotation about an axis of the first body, with a proportional advance along it.
 
         Parameters
         ----------
@@ -513,7 +513,7 @@ class TableVerbs(Elements):
 
     def spherical(self, name: str, first: Side, second: Side, *, at: ArrayLike | None = None, damping: float = 0.0,
                   cut: bool = False, active: bool | None = None) -> SpaceSpherical:
-        """Turns one body about a point of the other; a particle is held at that point.
+        """Rotation about a point of the first body; a particle is fixed at that point.
 
         Parameters
         ----------
@@ -555,7 +555,7 @@ class TableVerbs(Elements):
 
     def universal(self, name: str, first: Side, second: Side, *, axes: tuple[ArrayLike, ArrayLike], at: ArrayLike | None = None,
                   damping: float = 0.0, cut: bool = False, active: bool | None = None) -> SpaceUniversal:
-        """Joins two bodies by a cross, with an axis on each.
+        """Universal joint: a cross with one axis on each body.
 
         Parameters
         ----------
@@ -601,7 +601,7 @@ class TableVerbs(Elements):
 
     def spring(self, name: str, first: Side, second: Side, *, stiffness: LawLike | None = None, length: ArrayLike | None = None,
                damping: ArrayLike = 0.0, force: LawLike | None = None, of: Bindings | None = None) -> Spring:
-        """Spring with a damper between two points.
+        """Spring and damper between two points.
 
         Parameters
         ----------
@@ -641,7 +641,7 @@ class TableVerbs(Elements):
     def torsion_spring(self, name: str, joint: Joint | Measure | str, *, stiffness: LawLike | None = None,
                        angle: ArrayLike | None = None, damping: ArrayLike = 0.0, torque: LawLike | None = None,
                        of: Bindings | None = None) -> TorsionSpring:
-        """Spring with a damper about the axis of a joint.
+        """Spring and damper about the axis of a joint.
 
         Parameters
         ----------
@@ -683,7 +683,7 @@ class TableVerbs(Elements):
                 damping: ArrayLike = 0.0, torsion: ArrayLike = 0.0, torsion_damping: ArrayLike = 0.0, force: Laws | None = None,
                 torque: Laws | None = None, of: Bindings | None = None, axis: ArrayLike | None = None,
                 normal: ArrayLike | None = None) -> Bushing:
-        """Joins two bodies softly, by springs and dampers along and about the axes of the first.
+        """Elastic joint: springs and dampers along and about the axes of the first body.
 
         It is slack as drawn. In space the angles about its directions are the components of the rotation vector: the unit axis
         about which the second body has rotated, as seen from the first, times the angle. The angle is counted up to half a

@@ -141,7 +141,7 @@ class Body(Fixed, Shapes):
             If there are no coordinates, or the name is taken.
         """
         if (local is None) == (at is None):
-            raise WrongType(f"a point of {self.name!r} needs one of two: coordinates in its frame, or at=, its place as drawn",
+            raise WrongType(f"a point of {self.name!r} must have coordinates in its frame, or at=, its position as drawn",
                             "conflicting-arguments")
         size = self.dimension
         local = checks.vector("local", local, size) if at is None else self.pose.local(place("at", at, size))

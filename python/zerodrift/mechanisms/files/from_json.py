@@ -222,7 +222,7 @@ def _rack_pinion(m: Any, name: str, *, first: Any, second: Any, ratio: Any) -> N
 
 def _coupler(m: Any, name: str, *, law: Any = None, sum: Any = None) -> None:
     if (law is None) == (sum is None):
-        raise WrongValue("it needs one of two, law or sum", "unreadable-file")
+        raise WrongValue("it must have law or sum", "unreadable-file")
     value, of = (sum, None) if law is None else law_and_of(law, "law")
     m.coupler(name, value, of=of)
 

@@ -56,7 +56,7 @@ def find(function: Any, symbol: str | None, version: int | None) -> Function:
     """The compiled function that an argument refers to, checked."""
     if isinstance(function, str | Path):
         if version is not None:
-            raise WrongType(f"version is for functions in memory: a library declares zd_interface_version, not {version!r}",
+            raise WrongType(f"version must be left out: a library declares zd_interface_version, not {version!r}",
                             "compiled-function")
         return in_library(function, symbol)
     if symbol is not None:
@@ -81,7 +81,7 @@ def find(function: Any, symbol: str | None, version: int | None) -> Function:
 def check_version(version: Any, what: str, *, required: bool = False) -> None:
     """Refuse a library made for another version of the core's interface."""
     if version is None and required:
-        raise WrongType("version is needed with an address: the ZD_INTERFACE_VERSION it was compiled with; "
+        raise WrongType("version must be given with an address: the ZD_INTERFACE_VERSION it was compiled with; "
                         f"this core has {VERSION}", "compiled-function")
     if version is not None and (isinstance(version, bool) or version != VERSION):
         raise WrongValue(f"{what} is {version!r}, and this core has version {VERSION} of the interface: compile it again, "
@@ -172,7 +172,7 @@ def set_sines_of_large(library: ctypes.CDLL) -> None:
 def in_library(path: str | Path, symbol: Any) -> Function:
     """Function of a shared library; its interface version must be the core's."""
     if not isinstance(symbol, str) or not symbol:
-        raise WrongType(f"symbol is needed, the name of what is meant in {path}, not {symbol!r}", "compiled-function")
+        raise WrongType(f"symbol must be the name of a function in {path}, not {symbol!r}", "compiled-function")
     path = Path(path).resolve()
     digest = digest_of(path)
     try:
@@ -252,7 +252,7 @@ def _c_name(kind: Any) -> str:
 
 def _from_ctypes(function: Any) -> Function:
     if function.argtypes is None:
-        raise WrongType(f"set argtypes and restype of {function!r}, as of a {SIGNATURE}", "compiled-function")
+        raise WrongType(f"argtypes and restype of {function!r} must be set, as of a {SIGNATURE}", "compiled-function")
     _check_signature([_c_name(kind) for kind in (function.restype, *function.argtypes)], "the ctypes function")
     address = ctypes.cast(function, ctypes.c_void_p).value
     if not address:
