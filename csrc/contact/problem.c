@@ -65,16 +65,20 @@ static int is_another(const zd_case *it)
     return differs && !slides_more;
 }
 
+/* True if two rows have one direction; a row that other constraints hold has none. */
+static int are_parallel(const zd_contact_problem *of, int i, int k)
+{
+    const double W = of->W[i * of->rows + k], product = of->W[i * of->rows + i] * of->W[k * of->rows + k];
+    return product > 0 && product - W * W <= PARALLEL_SHARE * product;
+}
+
 /* True if an open normal row cannot move, as it is parallel to a row of friction that sticks. */
 static int is_held_by_others(const zd_case *it, int i)
 {
     const zd_contact_problem *of = it->of;
-    const int n = of->rows;
     if (of->row[i].normal >= 0 || it->state[i] != ZD_OPEN || of->row[i].slides != ZD_OPEN) return 0;
-    for (int k = 0; k < n; k++) {
-        const double W = of->W[i * n + k], product = of->W[i * n + i] * of->W[k * n + k];
-        if (of->row[k].normal >= 0 && it->state[k] == ZD_CLOSED && product - W * W <= PARALLEL_SHARE * product) return 1;
-    }
+    for (int k = 0; k < of->rows; k++)
+        if (of->row[k].normal >= 0 && it->state[k] == ZD_CLOSED && are_parallel(of, i, k)) return 1;
     return 0;
 }
 
@@ -140,10 +144,9 @@ static void find_parallel(zd_contact_problem *self)
     for (int i = 0; i < n; i++) {
         self->tie[i] = -1;
         for (int k = 0; k < i && self->tie[i] < 0; k++) {
-            const double W = self->W[i * n + k], product = self->W[i * n + i] * self->W[k * n + k];
             const int are_friction = self->row[i].normal >= 0 && self->row[k].normal >= 0 && !self->row[i].pair && !self->row[k].pair;
-            if (are_friction && self->tie[k] < 0 && product - W * W <= PARALLEL_SHARE * product)
-                self->tie[i] = k, self->factor[i] = fabs(W / self->W[k * n + k]);
+            if (are_friction && self->tie[k] < 0 && are_parallel(self, i, k))
+                self->tie[i] = k, self->factor[i] = fabs(self->W[i * n + k] / self->W[k * n + k]);
         }
     }
 }

@@ -430,3 +430,16 @@ def test_events_read_joints_with_dry_friction():
     start = np.arcsin(2 / 3)        # from 0 to 1 N there
     assert sol.t_events[0] == pytest.approx([start, np.pi - np.arcsin(0.5)], abs=1e-10)
     assert sol.t_events[1] == pytest.approx([np.arcsin(2.5 / 3), np.pi - np.arcsin(2.5 / 3)], abs=1e-10)
+
+
+@pytest.mark.parametrize(("pull", "speed"), [(1.0, 0.0), (10.0, 0.8)])
+def test_friction_beside_a_joint_that_a_weld_holds(pull, speed):
+    """The pin has no direction to move in; a slider of no connection with it sticks and slides as without it."""
+    m = zd.Mechanism("brake", gravity=(0, -9.81))
+    link = m.link("link", (0, 0), (1, 0), mass=1.0)
+    m.revolute("pin", m.ground, link.start, friction=0.3, radius=0.05)
+    m.weld("lock", m.ground, link, at=(0, 0), active=True)
+    block = m.body("block", 1.0, 0.1, at=(5, 0))
+    m.prismatic("slide", m.ground, block, at=(5, 0), axis=(1, 0), friction_force=2.0)
+    m.force("pull", block.point((0, 0)), value=pull, along=(1, 0))
+    assert zd.simulate(m, 0.1)["slide.speed"][-1] == pytest.approx(speed, abs=1e-12)
