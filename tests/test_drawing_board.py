@@ -597,7 +597,7 @@ def test_the_graph_is_read_by_the_mouse_and_moves_the_picture(browser, server):
     assert end == pytest.approx([0.4 * np.cos(angle), 0.4 * np.sin(angle)], abs=1e-6)
     sizes = np.linalg.norm(zd.simulate(MECHANISMS["four-bar"](), 2 * np.pi / 3, step=1e-3)["A.force"], axis=1)
     told = browser.evaluate("document.getElementById('turn-hint').textContent")
-    assert float(re.search(r"largest A.force: ([-\d.]+) N at", told)[1]) == pytest.approx(sizes.max(), rel=1e-3)
+    assert float(re.search(r"Largest A.force: ([-\d.]+) N at", told)[1]) == pytest.approx(sizes.max(), rel=1e-3)
     assert browser.errors == []
 
 
@@ -614,6 +614,18 @@ def test_travel_and_speed_of_a_slider_are_read(browser, server):
     place = r * np.cos(turn) + np.sqrt(rod**2 - (r * np.sin(turn))**2)
     assert travel - travel[0] == pytest.approx(place - place[0], abs=1e-8)
     assert speed[1:-1] == pytest.approx(np.gradient(place, t)[1:-1], abs=1e-6)
+    assert browser.errors == []
+
+
+@needs_chromium
+def test_a_block_replaces_the_slot_of_its_end(browser, server):
+    opened(browser, server, width=1280, height=800)
+    browser.evaluate("zerodrift.painter.show([-1.5, -0.5], [2.5, 1.8])")
+    draw(browser, "link", (0, 0), (1, 0))
+    draw(browser, "pin", (0, 0))
+    draw(browser, "slot", (1, 0))
+    draw(browser, "block", (1, 0))
+    assert [each["kind"] for each in model(browser)["elements"]] == ["link", "revolute", "link", "revolute", "prismatic"]
     assert browser.errors == []
 
 

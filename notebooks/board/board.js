@@ -560,7 +560,7 @@ function shownLines() {
 // Largest of the last line that is shown, the size of a vector.
 function largestOf(line) {
   const sizes = line.values.map((x) => (Number.isFinite(x) ? Math.abs(x) : -1)), i = sizes.indexOf(Math.max(...sizes));
-  return `largest ${line.name}: ${digits(line.values[i])} ${line.unit} at ${digits(turnOf().to * i / SAMPLES)} s`;
+  return `Largest ${line.name}: ${digits(line.values[i])} ${line.unit} at ${digits(turnOf().to * i / SAMPLES)} s`;
 }
 
 // The place of the pointer over the graph: the mechanism is shown there, with its values.

@@ -57,11 +57,13 @@ export function addLoad(model, side) {
   return add(model, {kind: "force", point: side, along: [0, -1], frame: "ground", value: 10});
 }
 
-// A block on a line of the ground, with its mass where it is pressed: a short link; pinned to a side where there is one.
+// A block on a line of the ground, with its mass where it is pressed: a short link; pinned to a side where there is one, in place of its slot.
 export function addBlock(model, {side, at}, size) {
+  const slot = model.elements.find((each) => side && each.kind === "slot" && bodyOf(each.first) === "ground" && same(each.second, side));
+  if (slot) remove(model, slot.name);
   const block = add(model, {kind: "link", name: newName(model, "block"), start: [...at], end: [at[0] + size, at[1]], mass: 1});
   if (side) addPin(model, side, `${block.name}.start`);
-  return add(model, {kind: "prismatic", first: onGround(at), second: `${block.name}.start`, axis: [1, 0], damping: 0, cut: false});
+  return add(model, {kind: "prismatic", first: onGround(at), second: `${block.name}.start`, axis: slot?.axis ?? [1, 0], damping: 0, cut: false});
 }
 
 // Removes a part with all that needs it.

@@ -80,7 +80,8 @@ def write_leg(folder: Path) -> None:
 def write_live(exhibit: gallery.Exhibit, graphs: Sequence[str], path: Path) -> None:
     """Write the page that simulates a model, with graphs of those that are measures."""
     made = exhibit.made()
-    wanted = Wanted(path=exhibit.path, graphs=[name for name in graphs if name in made.measures])
+    shown = [name for name in graphs if name in made.measures]
+    wanted = Wanted([name.removesuffix(".force") for name in shown if name.endswith(".force")], exhibit.path, shown)
     save(live_view(made, step=min(exhibit.step, 0.01), speed=exhibit.speed, wanted=wanted, **dict(exhibit.options)), path)
 
 

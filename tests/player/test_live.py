@@ -35,7 +35,7 @@ def test_it_simulates_on_its_constraints_without_an_error(browser, exhibit, tmp_
     made = live_view(exhibit.made(), step=min(exhibit.step, 0.01), speed=exhibit.speed, **dict(exhibit.options))
     view = opened(browser, made, tmp_path)
     assert len(view.page) < LARGEST
-    assert len(view.linked("core_bytes.js", "player.js")) < LARGEST / 12
+    assert len(view.linked("core_bytes.js", "player.js")) < LARGEST / 10
     browser.evaluate(f"globalThis.began = {{time: {TIME}, picture: document.getElementById('picture').toDataURL()}}; null")
     browser.until(f"{TIME} > began.time + {0.1 * exhibit.speed} && "
                   "document.getElementById('picture').toDataURL() !== began.picture")
@@ -232,13 +232,14 @@ def test_it_has_graphs_paths_forces_and_units(browser, tmp_path):
         zd.view(m, live=True, graphs=["C.x"])
 
 
-@pytest.mark.parametrize("name", ["four_bar", "slider_crank", "quick_return"])
+@pytest.mark.parametrize("name", ["four_bar", "slider_crank", "quick_return", "coin"])
 def test_forces_of_hinges_on_the_ground_and_of_slots_are_arrows(browser, name, tmp_path):
     m = getattr(zd.models, name)()
     view = opened(browser, zd.view(m, live=True, forces=True), tmp_path)
     arrows = browser.evaluate("zerodrift.scene.layers[0].arrows.map(each => [each.name, each.at])")
     assert [each for each, _ in arrows] == view._scene["arrows"]
     assert all(isinstance(at, int) for _, at in arrows)
+    assert browser.evaluate("document.getElementById('told').textContent") == ""
     assert browser.errors == []
 
 

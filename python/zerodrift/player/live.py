@@ -24,6 +24,7 @@ from ..export.block import choose, table_words, written
 from ..mechanisms.assembly.drive_starts import driven_coordinate
 from ..mechanisms.elements.forces import Actuator, Motor
 from ..mechanisms.pictures.arrows import chosen as acting
+from ..mechanisms.pictures.arrows import is_rolling
 from ..mechanisms.system import MechanismSystem
 from ..plot.drawing import names_of_points
 from ..runs.samples.columns import columns
@@ -118,7 +119,7 @@ def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None 
     points = body_points(system, list(sol.p))
     inputs, limits = _given(system, sliders) if sliders is not None else (_inputs(system), {})
     arrows = [each.name for each in (acting(system._drawing, wanted.forces) if wanted.forces else ())
-              if np.ndim(sol[f"{each.name}.force"]) == 2]
+              if not is_rolling(each) and np.ndim(sol[f"{each.name}.force"]) == 2]
     graphs = [variable for variable, _ in columns(sol, wanted.graphs)] if len(wanted.graphs) else []
     paths = [name if name.endswith(".position") else f"{name}.position" for name in names_of_points(wanted.path)]
     read = [*paths, *(f"{name}.force" for name in arrows), *(variable.name for variable in graphs)]

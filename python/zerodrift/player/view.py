@@ -177,9 +177,9 @@ def view(*solutions: Solution | Mechanism, forces: bool | Sequence[Any] = False,
         Names of the solutions.
     live : bool
         True: the argument is a mechanism instead of solutions, which the page itself simulates, by the core in WebAssembly;
-        graphs are then of measures, and labels are left out. Points are dragged by a spring from the pointer, in space parallel
-        to the screen, and sliders change parameters and motors; values with which loops cannot close are refused with a
-        message. The core is compiled once, by the package ziglang (the extra ``web``).
+        graphs are then of measures, forces not of rolling joints, and labels are left out. Points are dragged by a spring from
+        the pointer, in space parallel to the screen, and sliders change parameters and motors; values with which loops cannot
+        close are refused with a message. The core is compiled once, by the package ziglang (the extra ``web``).
     sliders : dict of (float, float), optional
         With ``live=True``: parameters and motors of the mechanism, with smallest and largest values, such as
         ``{"rod.length": (0.8, 1.2), "drive.speed": (0, 10)}``. By default some lengths, a spring, a mass,

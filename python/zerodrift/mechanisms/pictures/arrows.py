@@ -29,11 +29,15 @@ def chosen(drawing: Drawing, names: Any) -> list[Any]:
     return [known[checks.choice("each of forces", getattr(name, "name", name), list(known))] for name in names]
 
 
+def is_rolling(element: Any) -> bool:
+    """Force at a point that moves on both bodies."""
+    return isinstance(element, Joint) and element.kind in ("rolling", "contact")
+
+
 def acting(element: Any, moments: Sequence[Posed] | Sequence[SpacePosed], values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Points of application (k, d) in m and forces (k, d) in N at the moments, from the values (k,) or (k, d) of its measure."""
     point = element.point if isinstance(element, Force) else element.second
-    is_rolling = isinstance(element, Joint) and element.kind in ("rolling", "contact")
-    places = np.array([posed.contact(element) if is_rolling else posed.at(point) for posed in moments])
+    places = np.array([posed.contact(element) if is_rolling(element) else posed.at(point) for posed in moments])
     if values.ndim == 2:
         return places, values
     return places, values[:, None] * np.array([_direction(element, posed) for posed in moments])
