@@ -88,6 +88,9 @@ def test_pages_need_no_network_and_pictures_have_words(site):
             words = re.search(r'alt="([^"]*)"', picture)
             assert words, (written.name, picture)
             assert not re.search(r"\.(png|svg|jpe?g)$|^[0-9a-f]{16,}", words[1]), (written.name, words[1])
+        if "_static" not in written.parts:
+            links = re.findall(r'\b(?:href|src)="(?![a-z]+:)([^"#?]+)', page)
+            assert [each for each in links if not (written.parent / each).exists()] == [], written.name
 
 
 def pages_of(folder):
