@@ -9,7 +9,7 @@ import pytest
 
 import zerodrift as zd
 from core_objects import AT_FIXED_PLACES, CC, STRICT, needs_compiler, objects_of, shared_folder
-from few_bodies import touching_bodies
+from few_bodies import touching_bodies, touching_in_space
 from support import called, refused, relay
 from written_laws import machine_of_laws
 
@@ -64,12 +64,13 @@ def test_events_act_with_the_bits_of_simulate(tmp_path, built):
 
 
 @needs_compiler
-def test_contacts_have_the_bits_of_simulate(tmp_path, built):
-    m, names = touching_bodies()
+@pytest.mark.parametrize(("scene", "end"), [(touching_bodies, 3.0), (touching_in_space, 0.6)])
+def test_contacts_have_the_bits_of_simulate(scene, end, tmp_path, built):
+    m, names = scene()
     folder = zd.c_source(m, tmp_path / "bodies", step=1e-2, outputs=names)
-    sol = zd.simulate(m, 3.0, step=1e-2, outputs=names, vector="baseline", closed_form=False)
-    rows, _ = printed(built(folder), 3.0)
-    assert len(sol.phases) > 30
+    sol = zd.simulate(m, end, step=1e-2, outputs=names, vector="baseline", closed_form=False)
+    rows, _ = printed(built(folder), end)
+    assert len(sol.phases) > 20
     np.testing.assert_array_equal(rows, np.column_stack([sol.t, *(sol[name] for name in names)]))
 
 

@@ -15,7 +15,7 @@ import tolerances as tol
 import zerodrift as zd
 from analysis.test_reach_of_drives import driven
 from browser import Browser, needs_chromium
-from few_bodies import touching_bodies
+from few_bodies import touching_bodies, touching_in_space
 from support import assert_close, relay
 from written_laws import machine_of_laws
 from zerodrift._private.rotations import rotation_of
@@ -109,12 +109,13 @@ def test_events_set_inputs(web):
     assert found == [bits(sol.p[-1]), -1.0]
 
 
-def test_contacts_have_the_bits_of_the_native_core(web):
-    m, names = touching_bodies()
-    found, = web("const m = zd.create(core, block('it')); zd.advance(m, 3);"
+@pytest.mark.parametrize(("scene", "end"), [(touching_bodies, 3.0), (touching_in_space, 0.6)])
+def test_contacts_have_the_bits_of_the_native_core(web, scene, end):
+    m, names = scene()
+    found, = web(f"const m = zd.create(core, block('it')); zd.advance(m, {end});"
                  f"tell([bits(zd.positions(m)), bits(zd.velocities(m)), {names}.map((name) => Array.from(zd.read(m, name))),"
                  "zd.violation(m) < 1e-12]);", it=zd.block(m, step=1e-2, outputs=names))
-    sol = zd.simulate(m, 3.0, step=1e-2, vector="baseline", closed_form=False)
+    sol = zd.simulate(m, end, step=1e-2, outputs=names, vector="baseline", closed_form=False)
     forces = [np.atleast_1d(sol[name][-1]).tolist() for name in names]
     assert found == [bits(sol.p[-1]), bits(sol.v[-1]), forces, True]
 

@@ -1,10 +1,11 @@
-"""Random plane scenes with contacts, stops and dry friction against time stepping. Writes contact_scenes.md.
+"""Random scenes with contacts against time stepping. Writes contact_scenes.md, or contact_scenes_in_space.md.
 
-    OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests:tests/support python tests/stress/contact_scenes.py FILE [many [s [commit]]]
+    export OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests:tests/support
+    python tests/stress/contact_scenes.py plane|space FILE [many [s [commit]]]
 
 Findings are added to FILE, one line of JSON for each seed, and those that are in it are not made again; after s seconds it ends.
-Each scene has its own process: a crash is a finding. See `tests/contact/random_scenes.py`: kinds of scenes, laws, and
-the error up to which both must agree.
+Each scene has its own process: a crash is a finding. See `tests/contact/random_scenes.py` and `space_scenes.py`: kinds of
+scenes, laws, and the error up to which both must agree.
 """
 
 import json
@@ -16,23 +17,23 @@ from collections import Counter
 from pathlib import Path
 
 import zerodrift as zd
-from contact.random_scenes import outcome
+from contact import random_scenes, space_scenes
 
-TABLE = Path(__file__).with_suffix(".md")
+TABLES = {"plane": (random_scenes, "contact_scenes.md"), "space": (space_scenes, "contact_scenes_in_space.md")}
 LIMIT = 120     # s of a scene
 
 
-def _send(pipe, seed):
+def _send(pipe, scenes, seed):
     try:
-        pipe.send(outcome(seed))
+        pipe.send(scenes.outcome(seed))
     except Exception as error:      # to be listed, and mended
         pipe.send(("error", {"why": f"{type(error).__name__}: {error}"}))
 
 
-def tried(seed):
+def tried(scenes, seed):
     """Finding and details of one seed, made in a process of its own."""
     here, there = multiprocessing.Pipe()
-    process = multiprocessing.get_context("fork").Process(target=_send, args=(there, seed))
+    process = multiprocessing.get_context("fork").Process(target=_send, args=(there, scenes, seed))
     process.start()
     there.close()
     try:
@@ -81,21 +82,21 @@ def _details(each):
 
 def main():
     """Runs the scenes and writes the table."""
-    file = Path(sys.argv[1])
-    many, seconds = (int(sys.argv[i]) if len(sys.argv) > i else default for i, default in ((2, 1000), (3, 10**6)))
+    (scenes, table), file = TABLES[sys.argv[1]], Path(sys.argv[2])
+    many, seconds = (int(sys.argv[i]) if len(sys.argv) > i else default for i, default in ((3, 1000), (4, 10**6)))
     begin = time.time()
     lines = [json.loads(line) for line in file.read_text().splitlines()] if file.exists() else []
     found = {each.pop("seed"): each for each in lines}
-    outcome(0)      # imports, which all processes then have
+    scenes.outcome(0)       # imports, which all processes then have
     for seed in range(many):
         if seed in found or time.time() > begin + seconds:
             continue
-        finding, details = tried(seed)
+        finding, details = tried(scenes, seed)
         found[seed] = {"finding": finding, **details}
         with file.open("a") as out:
             out.write(json.dumps({"seed": seed, **found[seed]}) + "\n")
-    lines = page(found, sys.argv[4] if len(sys.argv) > 4 else "")
-    TABLE.write_text("\n".join(lines) + "\n")
+    lines = page(found, sys.argv[5] if len(sys.argv) > 5 else "")
+    Path(__file__).with_name(table).write_text("\n".join(lines) + "\n")
     print("\n".join(lines[:40]))
 
 

@@ -83,6 +83,22 @@ def touching_bodies():
                "buffer.force"]
 
 
+def touching_in_space():
+    """A ball that bounces, a stool that slides and spins, and a ball in a bowl, with names of measures."""
+    m = zd.Mechanism("in space", gravity=(0, 0, -9.81), dimension=3)
+    floor = m.ground.plane((0, 0, 0), (0, 0, 1))
+    ball = m.body("ball", 1.0, (0.004, 0.004, 0.004), at=(0, 0, 0.3))
+    other = m.body("other", 1.0, (0.004, 0.004, 0.004), at=(4.3, 0, 0.2))
+    m.contact("floor", ball, floor, radius=0.1, restitution=0.6, friction=0.3)
+    m.contact("bowl", other, m.ground.sphere((4, 0, 1), 1.0, outside=False), radius=0.1, restitution=0.4, friction=0.2)
+    stool = m.body("stool", 2.0, (0.02, 0.02, 0.03), at=(2, 0, 0.2))
+    for k, foot in enumerate(((0.15, 0.0, -0.2), (-0.08, 0.13, -0.2), (-0.08, -0.13, -0.2))):
+        m.contact(f"foot{k}", stool.point(foot), floor, friction=(0.35, 0.3))
+    m.start({ball.velocity: (1.0, 0.5, 0), ball.angular_velocity: (10.0, 0, 0), other.velocity: (0, 1.0, 0),
+             stool.velocity: (0.7, 0, 0), stool.angular_velocity: (0, 0, 3.0)})
+    return m, ["ball.position", "floor.force", "other.position", "bowl.force", "stool.position", "foot1.force"]
+
+
 def falling_box():
     """A square box that falls on the ground, bounces, tips over, slides and sticks."""
     m = zd.Mechanism("box", gravity=(0, -9.81))
