@@ -45,7 +45,7 @@ static int laws_suit(const zd_block *self, const zd_elements *elements, zd_compl
     for (int i = 0; i < elements->measures; i++) {
         const zd_output_spec *formula = elements->measure + i;
         if (formula->kind == ZD_FORMULA && !zd_block_law_suits(&self->laws, &self->layout, formula->index, formula->size, 1))
-            return zd_complain(to, "measure %d: its law must exist, with what it reads and one result", i);
+            return zd_complain(to, "measure %d must have a law that exists, with its inputs and one result", i);
     }
     return 1;
 }

@@ -18,7 +18,7 @@ static int take_method(const zd_block *block, const double *method, zd_settings 
         return zd_complain(complaint, "methods of a block must be of a table of methods, and have a name");
     const enum zd_table table = (enum zd_table)(int)method[0];
     const int row = zd_entry_named(table, name);
-    if (row < 0) return zd_complain(complaint, "there is no method '%s' in this core", name);
+    if (row < 0) return zd_complain(complaint, "a method must be one of this core, not '%s'", name);
     const zd_parameter_values given = given_of(method);
     if (zd_check_parameter_values(table, row, &given, complaint.message, complaint.size)) return 0;
     if (table == ZD_FORMULATIONS) to->formulation = row, to->of_formulation = given;

@@ -71,7 +71,7 @@ const char *zd_wrong_readings(const zd_events *events, const zd_system *run)
     const zd_measures *measures = (events->of ? events->of : run)->measures;
     for (int i = 0; events->known && i < events->count; i++)
         for (int k = 0; k < events->known[i].readings; k++)
-            if (!can_be_read(&events->known[i].reading[k], run, measures)) return "an event reads what the system does not have";
+            if (!can_be_read(&events->known[i].reading[k], run, measures)) return "an event must read quantities that the system has";
     return NULL;
 }
 

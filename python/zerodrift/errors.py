@@ -95,7 +95,7 @@ OF_ARGUMENTS = {
     "wrong-element": "An element is of another kind than required, or of another mechanism.",
     "user-function": "A function does not take the arguments, or is not as smooth or linear, as required.",
     "expression": "An expression or equation of SymPy is not of the form that is required.",
-    "not-available": "A system or solution does not have what is requested of it.",
+    "not-available": "A system or solution does not have the requested quantity.",
     "unreadable-file": "A file is damaged, incomplete, or not of this package or version.",
     "not-portable": "A function cannot be written to a file or a block, or sent to another process.",
     "other-study": "The folder of `store` belongs to another study or to another kind of processor.",

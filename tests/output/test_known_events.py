@@ -112,5 +112,5 @@ def test_the_core_refuses_to_read_what_is_not_there(reading):
     watcher = gateway.Watcher(bar._core, [known], bar._core)
     chosen = {"formulation": "schur", "integrator": "rk4", "stabilization": None, "energy": None, "step": 0.01, "save_every": 1}
     options = zd.runs.arguments.settings.core_settings((0.0, 1.0), chosen)
-    with pytest.raises(ZerodriftError, match="an event reads what the system does not have"):
+    with pytest.raises(ZerodriftError, match="an event must read quantities that the system has"):
         gateway.Run(bar._core, options, np.array(bar.p0), np.array(bar.v0), watcher)

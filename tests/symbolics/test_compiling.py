@@ -100,8 +100,8 @@ def test_an_empty_name_is_none(cache_folder, monkeypatch, said):
     ("gcc \\", "CC=gcc \\\\ is no command \\(no escaped character\\)"),
     ("true", "true wrote no library; CC=true, it was run as `/.*true -O1 .*CC has to be the command"),
     ("cc -fsyntax-only", "cc wrote no library; CC=cc -fsyntax-only, it was run as"),
-    ("cc -c", "cc wrote what cannot be loaded here \\(.*\\); CC=cc -c, it was run as `.* TMPDIR"),
-    ("cc -S", "cc wrote what cannot be loaded here"),
+    ("cc -c", "cc wrote a file that cannot be loaded \\(.*\\); CC=cc -c, it was run as `.* TMPDIR"),
+    ("cc -S", "cc wrote a file that cannot be loaded"),
     ("cc --no-such-flag", "cc refused the C source: .*no-such-flag.*; CC=cc --no-such-flag, it was run as"),
     ("cat", "cat refused the C source: "),
 ])
@@ -131,7 +131,7 @@ def test_a_library_of_something_else(cache_folder, tmp_path, monkeypatch):
     (tmp_path / "other.c").write_text("int other;")
     script = program(tmp_path / "odd", f"#!/bin/sh\nexec cc -shared -fPIC -o system.so {tmp_path}/other.c\n")
     monkeypatch.setenv("CC", str(script))
-    assert "wrote what cannot be loaded here" in refusal()
+    assert "wrote a file that cannot be loaded" in refusal()
 
 
 # A program that waits for one that it starts; that one waits until whoever listens leaves.

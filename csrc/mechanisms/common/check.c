@@ -103,7 +103,7 @@ static int measure_is_right(const tables *of, int i, zd_complaint to)
 {
     const zd_output_spec *measure = of->elements->measure + i;
     if (measure->kind == ZD_FORMULA)
-        return formula_is_right(of->elements, measure) || zd_complain(to, "measure %s: what it reads must exist", measure->name);
+        return formula_is_right(of->elements, measure) || zd_complain(to, "measure %s must read quantities that exist", measure->name);
     if (measure->kind > ZD_FORMULA)
         return sum_is_right(of, measure) || zd_complain(to, "measure %s: the entries that it measures must exist", measure->name);
     const int kind = measure->kind, count = count_of(of, kind), index = measure->index;

@@ -185,7 +185,7 @@ class _Work:
         except (MemoryError, WorkerLost) as error:
             with_solution(error, self._ensemble())
             if self._store and isinstance(error, WorkerLost):
-                checks.tell(error, f"what was done is in {self._store.folder}, and the same call goes on with it")
+                checks.tell(error, f"finished runs are in {self._store.folder}, and the same call continues them")
             raise
         finally:
             close()

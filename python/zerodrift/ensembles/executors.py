@@ -131,7 +131,7 @@ class Elsewhere:
         why = described(error, code=False).rstrip(": ")
         others = f", nor {len(self._lost) - 1} other portions" if len(self._lost) > 1 else ""
         hint = "" if self._has_received or not isinstance(error, BrokenExecutor) else (
-            '; a script that starts processes needs `if __name__ == "__main__":` around what does')
+            '; a script must start processes below `if __name__ == "__main__":`')
         return WorkerLost(f"the executor did not return the runs {first} ... {last - 1}{others}: {why}{hint}")
 
     def _cancel(self) -> None:

@@ -66,8 +66,8 @@ def unpacked(data: bytes) -> Any:
     try:
         return pickle.loads(data)
     except (ImportError, AttributeError) as error:
-        raise MissingPackage(f"{error}; what is defined in a module travels by its name, so that workers need that module, "
-                             "the same as here; cloudpickle.register_pickle_by_value(module) sends what it is instead") from None
+        raise MissingPackage(f"{error}; objects of a module are sent by name, so that workers must have the same module; "
+                             "cloudpickle.register_pickle_by_value(module) sends their content instead") from None
 
 
 class _Stuck(WrongType):

@@ -25,7 +25,7 @@ FIRST_PRINTED, LAST_PRINTED = 18, 6     # of many names, parameters and rows
 
 class Terms:
     __doc__ = "\n".join([
-        "The terms of the equations of motion at one (t, p, v); what a system does not have is None.", "",
+        "The terms of the equations of motion at one (t, p, v); those that a system does not have are None.", "",
         "Attributes", "----------",
         *(f"{name} : ndarray {term.sizes}\n    {term.text[0].upper()}{term.text[1:]}." for name, term in gateway.TERMS.items())])
 

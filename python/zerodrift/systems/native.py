@@ -299,5 +299,5 @@ def _check_at_start(system: BaseSystem) -> None:
         return
     wrong = gateway.probe(system._core, *system._state_or_start(None, None))
     if wrong:
-        said = f"the function of {system.name} does not do what it is said to: {wrong}"
+        said = f"the function of {system.name} must match its declaration: {wrong}"
         raise ZerodriftError(said) if wrong.startswith("it reports") else WrongValue(said, "compiled-function")

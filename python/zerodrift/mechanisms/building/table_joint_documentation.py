@@ -56,8 +56,8 @@ def documentation(plane: type[Joint] | None, space: type[SpaceJoint] | None, wor
                                                           for each in (plane, space) if each)]
     lines += wrapped(_measures(space), "    ")[:-1] if space else []
     lines += ["", "Raises", "------", "ValueError, TypeError"]
-    lines += wrapped("If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is not "
-                     "what it may be, or a particle would need an orientation.", "    ")
+    lines += wrapped("If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is out "
+                     "of range, or a particle would need an orientation.", "    ")
     lines += ["Notes", "-----", *wrapped(f"Source: {card.equations}" + (f"; {card.reference}." if card.reference else "."))]
     return "\n".join([*lines, "Examples", "--------", *_example(joint, plane is not None, words)])
 

@@ -149,8 +149,8 @@ class TableVerbs(Elements):
         Raises
         ------
         ValueError, TypeError
-            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is not what it may
-            be, or a particle would need an orientation.
+            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is out of range, or
+            a particle would need an orientation.
 
         Notes
         -----
@@ -203,8 +203,8 @@ class TableVerbs(Elements):
         Raises
         ------
         ValueError, TypeError
-            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is not what it may
-            be, or a particle would need an orientation.
+            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is out of range, or
+            a particle would need an orientation.
 
         Notes
         -----
@@ -243,8 +243,8 @@ class TableVerbs(Elements):
         Raises
         ------
         ValueError, TypeError
-            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is not what it may
-            be, or a particle would need an orientation.
+            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is out of range, or
+            a particle would need an orientation.
 
         Notes
         -----
@@ -279,8 +279,8 @@ class TableVerbs(Elements):
         Raises
         ------
         ValueError, TypeError
-            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is not what it may
-            be, or a particle would need an orientation.
+            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is out of range, or
+            a particle would need an orientation.
 
         Notes
         -----
@@ -322,8 +322,8 @@ class TableVerbs(Elements):
         Raises
         ------
         ValueError, TypeError
-            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is not what it may
-            be, or a particle would need an orientation.
+            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is out of range, or
+            a particle would need an orientation.
 
         Notes
         -----
@@ -364,8 +364,8 @@ class TableVerbs(Elements):
         Raises
         ------
         ValueError, TypeError
-            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is not what it may
-            be, or a particle would need an orientation.
+            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is out of range, or
+            a particle would need an orientation.
 
         Notes
         -----
@@ -407,8 +407,8 @@ class TableVerbs(Elements):
         Raises
         ------
         ValueError, TypeError
-            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is not what it may
-            be, or a particle would need an orientation.
+            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is out of range, or
+            a particle would need an orientation.
 
         Notes
         -----
@@ -450,8 +450,8 @@ class TableVerbs(Elements):
         Raises
         ------
         ValueError, TypeError
-            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is not what it may
-            be, or a particle would need an orientation.
+            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is out of range, or
+            a particle would need an orientation.
 
         Notes
         -----
@@ -495,8 +495,8 @@ class TableVerbs(Elements):
         Raises
         ------
         ValueError, TypeError
-            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is not what it may
-            be, or a particle would need an orientation.
+            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is out of range, or
+            a particle would need an orientation.
 
         Notes
         -----
@@ -537,8 +537,8 @@ class TableVerbs(Elements):
         Raises
         ------
         ValueError, TypeError
-            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is not what it may
-            be, or a particle would need an orientation.
+            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is out of range, or
+            a particle would need an orientation.
 
         Notes
         -----
@@ -583,8 +583,8 @@ class TableVerbs(Elements):
         Raises
         ------
         ValueError, TypeError
-            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is not what it may
-            be, or a particle would need an orientation.
+            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is out of range, or
+            a particle would need an orientation.
 
         Notes
         -----

@@ -68,8 +68,8 @@ class Joint(Fixed):
         self._switched: Switched | None = None
 
     force = vector("force", "Force of the first body on the second through the joint, in the drawing's axes, in N: its "
-                   "reaction, and what acts in it: motors, damping, torsion springs. What acts between points or joints, such as "
-                   "springs, actuators, gears and couplers, is in measures of its own, and not in this one.")
+                   "reaction, with its motors, damping and torsion springs. Springs, actuators, gears and couplers, which act "
+                   "between points or joints, have their own measures and are not included.")
 
     switched = property(lambda self: self._switched, doc="Dry friction, and whether it is joined; None: neither.")
 

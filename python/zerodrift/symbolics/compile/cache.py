@@ -179,7 +179,7 @@ def _trusted(path: Path, descriptor: int | None) -> Folder | None:
     if not wrong:
         return Folder(path, descriptor)
     mend = "" if status.st_uid not in _believed() else f"make it safe by `chmod go-w {path}`, or "
-    _say(f"compiled systems are neither taken from {path} nor kept there: it {wrong}, and what is in it is executed. "
+    _say(f"compiled systems are neither taken from {path} nor kept there: it {wrong}, and its files are executed. "
          f"{mend[:1].upper()}{mend[1:]}{'let' if mend else 'Let'} ZERODRIFT_CACHE name a folder of your own")
     return None
 

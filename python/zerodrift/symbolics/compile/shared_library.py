@@ -101,7 +101,7 @@ def _made(source: str, line: list[str], environment: dict[str, str] | None, note
     except (OSError, ValueError) as error:
         cache.drop(f"{digest}.so")
         elsewhere = f"if nothing may be executed in {tempfile.gettempdir()}, let TMPDIR name another folder"
-        raise _failure(line, f"wrote what cannot be loaded here ({error})", f". {compilers.advice()}; {elsewhere}") from None
+        raise _failure(line, f"wrote a file that cannot be loaded ({error})", f". {compilers.advice()}; {elsewhere}") from None
     cache.write(note, digest)
     return found
 
