@@ -83,9 +83,9 @@ def test_splines_are_out_of_reach():
 
 
 @pytest.mark.parametrize(("section", "place", "value", "sentence"), [
-    ("measures", 3, 1.0, "measure 2 must have a law"), ("measures", 4, 1.0, "measure 2: its law must exist"),
+    ("measures", 3, 1.0, "measure 2 must have a law"), ("measures", 4, 1.0, "measure 2 must have a law"),
     ("measures", 4, 40.0, "measure 2 must have a law"), ("measures", 6, 1.0, "measure power must read"),
-    ("terms", 0, 2.0, "measure power must read"), ("terms", 0, 9.0, "measure power: what it reads"),
+    ("terms", 0, 2.0, "measure power must read"), ("terms", 0, 9.0, "measure power must read"),
     ("terms", 1, 9.0, "measure power must read")])
 def test_a_formula_reads_what_there_is(section, place, value, sentence):
     m = zd.Mechanism("one")

@@ -172,7 +172,7 @@ class Cancels(ThreadPoolExecutor):
 
 
 def test_runs_that_an_executor_cancels_are_lost_with_an_error(tmp_path):
-    """With those that were done, from which the same call goes on."""
+    """With those that were done, from which the same call continues them."""
     arguments = PLAIN | {"store": tmp_path / "study", "chunk": 2}
     with pytest.raises(zd.WorkerLost, match=r"did not return the runs 4 ... 5, nor 3 other portions: Cancelled") as caught:
         zd.ensemble(pendulum, 1.0, executor=Cancels(2, 6), **arguments)
@@ -213,12 +213,12 @@ def test_a_worker_of_another_version_is_refused(monkeypatch):
 
 
 def test_workers_that_die_leave_what_was_done(tmp_path):
-    """And the same call goes on with it, by threads."""
+    """And the same call continues them with it, by threads."""
     arguments = PLAIN | {"store": tmp_path / "study", "reduce": dies, "chunk": 2}
     with (ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as executor,
           pytest.raises(zd.WorkerLost, match=r"did not return the runs 6 ... 7, nor 2 other portions: Broken") as caught):
         zd.ensemble(pendulum, 1.0, executor=executor, **arguments)
-    assert "the same call goes on" in caught.value.__notes__[0]
+    assert "the same call continues them" in caught.value.__notes__[0]
     assert (~caught.value.solution.failed).sum() == 6
     with pytest.raises(zd.WorkerLost, match=r"did not return the runs 6 ... 7: .*__main__"):
         zd.ensemble(pendulum, 1.0, executor=executor, **arguments)      # which is broken by now
