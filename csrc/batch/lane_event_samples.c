@@ -58,6 +58,7 @@ void zd_lane_group_span(zd_lane_group *self, int lane)
     for (int i = 0; i < lanes->events; i++) {
         zd_zeros *zeros = &search->zeros[i];
         zeros->count = last + 1;
+        zeros->expected = NAN;
         zeros->t[0] = lanes->t_before[lane], zeros->g[0] = search->before[i];
         zeros->t[last] = lanes->t[lane], zeros->g[last] = search->now[i];
     }
@@ -91,7 +92,7 @@ int zd_lane_group_predict(zd_lane_group *self, int lane)
     }
     for (int i = 0; i < lanes->events; i++)
         if (zd_zeros_are_paired(&search->zeros[i])) any = 1;
-        else zd_zeros_keep_ends(&search->zeros[i]);
+        else zd_zeros_keep_ends(&search->zeros[i], 1);
     return any;
 }
 

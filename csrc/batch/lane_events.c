@@ -87,8 +87,7 @@ static void note_located(zd_lane_group *self, int lane)
 
 static zd_bracket bracket_of(const zd_lanes *lanes, const zd_lane_search *search, int lane, int first, int last)
 {
-    const zd_zeros *it = &search->zeros[search->event];
-    return zd_bracket_of(it->t[first], it->t[last], it->g[first], it->g[last], resolution_of(lanes, lane));
+    return zd_zeros_bracket(&search->zeros[search->event], first, last, resolution_of(lanes, lane));
 }
 
 /* Proceeds to the states, as all events are located. With dense output, the event that ends the run is located again by shorter steps,

@@ -10,7 +10,7 @@ typedef struct zd_bracket {
     double ga, gb;      /* values at a and b, of different signs; gb may be zero */
     double first_width, resolution;   /* initial and requested width of the interval */
     double reach;       /* the next point is within reach - (b - a) / 2 of the middle; halved in each evaluation, as by bisection */
-    double slope;       /* |slope| of the initial secant */
+    double slope;       /* |slope| of the initial secant, or at an expected zero */
     double next;        /* next point during the search from an expected zero */
     int sides;          /* sides of the zero found by that search, bits 1 (before) and 2 (after); 3: the zero is enclosed */
 } zd_bracket;
@@ -49,16 +49,17 @@ static inline double zd_bracket_choose(const zd_bracket *it)
     return fabs(t - middle) <= allowed ? t : middle - inwards * allowed;
 }
 
-/* Continues the search from an expected zero after the value g at `next`: first by twice the distance g / slope, then by growing strides,
- * until the zero is enclosed. */
+/* Continues the search from an expected zero after the value g at `next`: first by somewhat more than the distance g / slope, then by growing
+ * strides, until the zero is enclosed. It is then so narrow that secants need no shift. */
 static inline void zd_bracket_enclose(zd_bracket *it, double g, int is_before)
 {
-    const double stride = it->sides ? 8 * it->reach : fmax(it->resolution, 2 * fabs(g) / it->slope);
+    const double stride = it->sides ? 8 * it->reach : fmax(it->resolution, 1.25 * fabs(g) / it->slope);
     it->sides |= is_before ? 1 : 2;
     it->reach = stride;
     it->next += is_before ? stride : -stride;
     if (!(it->a < it->next && it->next < it->b)) it->sides = 3;
     if (it->sides != 3) return;
+    it->first_width = INFINITY;
     for (it->reach = it->resolution; it->reach < it->b - it->a;) it->reach *= 2;
 }
 

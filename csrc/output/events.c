@@ -66,9 +66,8 @@ int zd_watch_start(zd_watch *self)
 
 static zd_bracket bracket_of(const zd_watch *self, int event, int first, int last)
 {
-    const zd_zeros *it = &self->zeros[event];
     const double t0 = self->output->before.t, resolution = ZD_TIME_RESOLUTION * fmax(fabs(t0), fabs(self->end.t));
-    return zd_bracket_of(it->t[first], it->t[last], it->g[first], it->g[last], resolution);
+    return zd_zeros_bracket(&self->zeros[event], first, last, resolution);
 }
 
 /* The widest bracket of an occurrence by points of the same signs, near the instant that is known. */
@@ -79,15 +78,23 @@ static zd_bracket widened(const zd_watch *self, const zd_occurrence *of)
     return zd_bracket_near(of->bracket.b, bracket_of(self, of->event, first, last));
 }
 
+/* Moves to a time within the step; a state to which the search has made a shorter step is not computed again. */
+static int move(zd_watch *self, double t)
+{
+    const zd_state *saved = t == self->early.t ? &self->early : t == self->late.t ? &self->late : NULL;
+    return saved && !self->output->is_prepared ? zd_stepper_return_to(self->output->stepper, saved) : zd_watch_move(self, t);
+}
+
 static int locate(zd_watch *self, zd_occurrence *occurrence)
 {
     zd_bracket *it = &occurrence->bracket;
     while (it->b - it->a > it->resolution) {
         double g, t = zd_bracket_choose(it);
-        int status = zd_watch_move(self, t);
+        int status = move(self, t);
         if (!status) status = zd_watch_evaluate(self, occurrence->event, &g);
         if (status) return status;
         zd_bracket_narrow(it, t, g);
+        if (!self->output->is_prepared) zd_stepper_save_state(self->output->stepper, it->a == t ? &self->early : &self->late);
     }
     return ZD_DONE;
 }
@@ -198,9 +205,9 @@ static int move_to_event(zd_watch *self, const zd_occurrence *found, const zd_st
     const zd_stepper *stepper = self->output->stepper;
     const int jumps = !self->output->is_prepared || zd_bracket_leaps(&found->bracket);
     const int is_mixed = jumps && !zd_watch_reads_accelerations(self, found->event);
-    int status = is_mixed ? zd_watch_move(self, found->bracket.a) : ZD_DONE;
+    int status = is_mixed ? move(self, found->bracket.a) : ZD_DONE;
     if (is_mixed) zd_stepper_save_state(stepper, &self->early);
-    if (!status) status = zd_watch_move(self, found->bracket.b);
+    if (!status) status = move(self, found->bracket.b);
     zd_stepper_save_state(stepper, &self->late);
     *there = &self->late;
     return status || !is_mixed ? status : interpolate_event(self, found, there);
@@ -244,6 +251,7 @@ static int find_all(zd_watch *self, double *end)
 {
     zd_output *output = self->output;
     double first_end = INFINITY;
+    self->early.t = self->late.t = NAN;
     int status = zd_watch_leave(self);
     if (!status) status = zd_watch_sample(self);
     if (!status) status = locate_all(self, &first_end);

@@ -186,7 +186,7 @@ static int predict_all(zd_watch *self, int *is_known)
 static int occurs_by(zd_watch *self, int event, int is_known)
 {
     zd_zeros *zeros = &self->zeros[event];
-    if (is_known ? !zd_zeros_are_paired(zeros) : is_fixed(self)) zd_zeros_keep_ends(zeros);
+    if (is_known ? !zd_zeros_are_paired(zeros) : is_fixed(self)) zd_zeros_keep_ends(zeros, is_known);
     return zeros->count > 2 || zd_passes_zero(self->before[event], self->now[event], self->events->direction[event]);
 }
 
@@ -197,6 +197,7 @@ void zd_watch_span(zd_watch *self)
         zd_zeros *zeros = &self->zeros[i];
         zeros->count = last + 1;
         zeros->error = 0;
+        zeros->expected = NAN;
         zeros->t[0] = self->output->before.t, zeros->g[0] = self->before[i];
         zeros->t[last] = self->end.t, zeros->g[last] = self->now[i];
     }

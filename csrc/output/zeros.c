@@ -20,9 +20,28 @@ double zd_sample_share(int k)
     return k <= ZD_SAMPLES / 2 ? share[k - 1] : 1 - share[ZD_SAMPLES - k];
 }
 
-void zd_zeros_keep_ends(zd_zeros *self)
+/* Zero between points k - 1 and k: of the cubic polynomial t(g) through the points around them, if g rises or falls there throughout; else of
+ * the secant. */
+static double interpolate_zero(const zd_zeros *self, int k)
+{
+    const int first = k < 2 ? 0 : k > self->count - 2 ? self->count - 4 : k - 2;
+    const double *g = self->g + first;
+    double t[4] = {self->t[first], self->t[first + 1], self->t[first + 2], self->t[first + 3]};
+    const int rises = g[0] < g[1] && g[1] < g[2] && g[2] < g[3], falls = g[0] > g[1] && g[1] > g[2] && g[2] > g[3];
+    if (!rises && !falls) return self->t[k] - self->g[k] * (self->t[k] - self->t[k - 1]) / (self->g[k] - self->g[k - 1]);
+    for (int i = 1; i < 4; i++)     /* Neville's scheme */
+        for (int j = 0; j < 4 - i; j++) t[j] = (g[j + i] * t[j] - g[j] * t[j + 1]) / (g[j + i] - g[j]);
+    return t[0];
+}
+
+void zd_zeros_keep_ends(zd_zeros *self, int are_known)
 {
     const int last = self->count - 1;
+    for (int k = 1; k <= last && are_known; k++)
+        if (zd_passes_zero(self->g[k - 1], self->g[k], 0)) {
+            self->expected = interpolate_zero(self, k);
+            self->slope = fabs(self->g[k] - self->g[k - 1]) / (self->t[k] - self->t[k - 1]);
+        }
     self->t[1] = self->t[last], self->g[1] = self->g[last];
     self->count = 2;
 }
@@ -69,6 +88,14 @@ int zd_zeros_are_paired(const zd_zeros *self)
         if (f < CERTAIN * self->error || (is_dip(self, k) && 2 * f < range)) return 1;
     }
     return 0;
+}
+
+zd_bracket zd_zeros_bracket(const zd_zeros *self, int first, int last, double resolution)
+{
+    zd_bracket it = zd_bracket_of(self->t[first], self->t[last], self->g[first], self->g[last], resolution);
+    if (!(it.a < self->expected && self->expected < it.b)) return it;
+    it.slope = self->slope;
+    return zd_bracket_near(self->expected, it);
 }
 
 void zd_zeros_widen(const zd_zeros *self, int k, int *first, int *last)
