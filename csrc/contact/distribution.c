@@ -24,6 +24,7 @@ enum { SIZE = ZD_MAX_FREE + 1, STEPS = 1000 };
 
 typedef struct barrier {
     zd_distribution *of;
+    const double *null;     /* (nulls, 3 contacts) */
     double unit, t, mu;
 } barrier;
 
@@ -50,7 +51,7 @@ static void differentiate(const barrier *it, double *g, double *H)
         const double *f = it->of->force + 3 * i + 1, left = slack(it, i), u = room(it, i);
         double slope[SIZE], du[SIZE];       /* gradients of the slack and of the room */
         for (int k = 0; k < nulls; k++) {
-            const double *change = it->of->null + k * width + 3 * i;
+            const double *change = it->null + k * width + 3 * i;
             du[k] = coefficient(it, i) * change[0];
             slope[k] = 2 * (u * du[k] - f[0] * change[1] - f[1] * change[2]);
         }
@@ -61,14 +62,14 @@ static void differentiate(const barrier *it, double *g, double *H)
         }
         for (int k = 0; k < nulls; k++)
             for (int j = 0; j < nulls; j++) {
-                const double *a = it->of->null + k * width + 3 * i, *b = it->of->null + j * width + 3 * i;
+                const double *a = it->null + k * width + 3 * i, *b = it->null + j * width + 3 * i;
                 H[k * n + j] += 2 * (a[1] * b[1] + a[2] * b[2]) / left;
             }
     }
     for (int k = 0; k < nulls; k++) {
-        const double *a = it->of->null + k * width, scale = 1 / (it->unit * it->unit);
+        const double *a = it->null + k * width, scale = 1 / (it->unit * it->unit);
         g[k] += zd_dot(width, a, it->of->force) * scale;
-        for (int j = 0; j < nulls; j++) H[k * n + j] += zd_dot(width, a, it->of->null + j * width) * scale;
+        for (int j = 0; j < nulls; j++) H[k * n + j] += zd_dot(width, a, it->null + j * width) * scale;
     }
 }
 
@@ -76,7 +77,7 @@ static void move(barrier *it, const double *step, double by)
 {
     const int width = 3 * it->of->contacts;
     for (int k = 0; k < it->of->nulls; k++)
-        for (int i = 0; i < width; i++) it->of->force[i] += by * step[k] * it->of->null[k * width + i];
+        for (int i = 0; i < width; i++) it->of->force[i] += by * step[k] * it->null[k * width + i];
     it->t += by * step[it->of->nulls];
 }
 
@@ -100,7 +101,7 @@ static int improve(barrier *it)
 void zd_distribution_add(zd_distribution *self, double N, int is_free, const double *f, double coefficient)
 {
     const int at = 3 * self->contacts;
-    if (self->contacts == ZD_MAX_DISTRIBUTED || self->components + 3 > ZD_MAX_FREE) return;
+    if (self->contacts == ZD_MAX_DISTRIBUTED || self->components + is_free + (f ? 2 : 0) > ZD_MAX_FREE) return;
     self->force[at] = N;
     if (is_free) self->component[self->components++] = at;
     for (int i = 0; i < 2; i++) {
@@ -110,20 +111,22 @@ void zd_distribution_add(zd_distribution *self, double N, int is_free, const dou
     self->friction[self->contacts++] = f ? coefficient : 0;
 }
 
-static void find_nulls(zd_distribution *self, double *K)
+/* null (nulls, 3 contacts) */
+static void find_nulls(zd_distribution *self, double *K, double *null)
 {
     const int n = self->components, width = 3 * self->contacts;
-    double null[ZD_MAX_FREE * ZD_MAX_FREE];
-    self->nulls = zd_equations_null_space(n, K, null);
-    zd_clear(self->nulls * width, self->null);
+    double of_components[ZD_MAX_FREE * ZD_MAX_FREE];
+    self->nulls = zd_equations_null_space(n, K, of_components);
+    zd_clear(self->nulls * width, null);
     for (int k = 0; k < self->nulls; k++)
-        for (int i = 0; i < n; i++) self->null[k * width + self->component[i]] = null[k * n + i];
+        for (int i = 0; i < n; i++) null[k * width + self->component[i]] = of_components[k * n + i];
 }
 
 void zd_distribution_find(zd_distribution *self, double *K)
 {
-    find_nulls(self, K);
-    barrier it = {.of = self, .unit = zd_max_abs(3 * self->contacts, self->force), .t = INFINITY};
+    double null[ZD_MAX_FREE * 3 * ZD_MAX_DISTRIBUTED];
+    find_nulls(self, K, null);
+    barrier it = {.of = self, .null = null, .unit = zd_max_abs(3 * self->contacts, self->force), .t = INFINITY};
     if (!(it.unit > 0)) it.unit = 1e-300;
     for (int i = 0; i < self->contacts; i++)
         it.t = fmin(it.t, coefficient(&it, i) * self->force[3 * i] - zd_hypotenuse(self->force[3 * i + 1], self->force[3 * i + 2]));

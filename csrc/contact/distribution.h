@@ -10,7 +10,6 @@ typedef struct zd_distribution {
     int components;
     int component[ZD_MAX_FREE];                 /* (components,) indices in `force` of those that may differ */
     int nulls;                                  /* result: number of ways in which they do */
-    double null[ZD_MAX_FREE * 3 * ZD_MAX_DISTRIBUTED];      /* result: (nulls, 3 contacts) */
     double margin;          /* result, N: largest of all distributions, of the smallest of friction N - |f|, or of N; they hold from 0 on */
     double weight[ZD_MAX_DISTRIBUTED];          /* result: share of each in what limits the margin */
 } zd_distribution;

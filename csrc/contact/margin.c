@@ -27,63 +27,96 @@ static double find_total_bound(const zd_phase_system *self, int index, const dou
     return total;
 }
 
-/* Friction in two directions that sticks at a normal group; -1: none. */
-static int find_sticking(const zd_phase_system *self, int normal)
+/* Friction in two directions of a normal group; -1: none. */
+static int find_friction(const zd_phase_system *self, int normal)
 {
-    for (int g = 0; g < self->full->groups; g++) {
-        const zd_group *group = self->full->group + g;
-        if (group->kind == ZD_FRICTION && group->rows == 2 && group->normal == normal + 1 && self->state[g] == ZD_CLOSED) return g;
-    }
+    for (int g = 0; g < self->full->groups; g++)
+        if (self->full->group[g].normal == normal + 1 && self->full->group[g].rows == 2) return g;
     return -1;
 }
 
-/* Products of rows of the full system, each times its sign. */
-static void find_products(const zd_phase_system *self, int count, const int *rows, const double *sign, double *K)
+static double find_product(const zd_phase_system *self, int row, int other)
 {
-    for (int i = 0; i < count; i++) {
-        const zd_row_of_C own = zd_phase_row(self, rows[i]);
-        zd_row_expand(&own, self->full->nv, self->known->row);
-        for (int j = 0; j < count; j++) {
-            const zd_row_of_C other = zd_phase_row(self, rows[j]);
-            K[i * count + j] = sign[i] * sign[j] * zd_row_times(&other, self->known->row);
+    const zd_row_of_C one = zd_phase_row(self, row), two = zd_phase_row(self, other);
+    zd_row_expand(&one, self->full->nv, self->known->row);
+    return zd_row_times(&two, self->known->row);
+}
+
+/* True if the rows of two contacts share coordinates. */
+static int are_coupled(const zd_phase_system *self, int a, int b)
+{
+    const zd_group *group = self->full->group;
+    const int friction[] = {find_friction(self, a), find_friction(self, b)}, normal[] = {a, b};
+    int row[2][3], count[2] = {1, 1};
+    for (int i = 0; i < 2; i++) {
+        row[i][0] = group[normal[i]].first;
+        for (int k = 0; friction[i] >= 0 && k < 2; k++) row[i][count[i]++] = group[friction[i]].first + k;
+    }
+    for (int i = 0; i < count[0]; i++)
+        for (int k = 0; k < count[1]; k++)
+            if (find_product(self, row[0][i], row[1][k]) != 0) return 1;
+    return 0;
+}
+
+/* Closed contacts that act on each other: the first one, and those that are coupled with it, directly or through others. */
+static int list_part(const zd_phase_system *self, int first, int *normal)
+{
+    int count = 1;
+    normal[0] = first;
+    for (int i = 0; i < count; i++)
+        for (int g = 0; g < self->full->groups && count < ZD_MAX_DISTRIBUTED; g++) {
+            int is_new = self->full->group[g].kind == ZD_ONE_SIDED && self->state[g] == ZD_CLOSED;
+            for (int k = 0; k < count; k++) is_new &= normal[k] != g;
+            if (is_new && are_coupled(self, normal[i], g)) normal[count++] = g;
         }
-    }
+    return count;
 }
 
-const zd_distribution *zd_phase_distribution(const zd_phase_system *self, const double *lambda)
+static void find_part(const zd_phase_system *self, int first, const double *lambda, zd_part_forces *to)
 {
-    const zd_system *full = self->full;
-    const int with_normals = !self->has_sliding_pairs;
-    zd_known_terms *known = self->known;
-    zd_distribution *forces = known->distribution;
-    int rows[ZD_MAX_FREE] = {0}, count = 0;
+    const zd_group *group = self->full->group;
+    int normals[ZD_MAX_DISTRIBUTED], rows[ZD_MAX_FREE] = {0}, count = 0, slides = 0;
+    const int contacts = list_part(self, first, normals);
     double sign[ZD_MAX_FREE] = {0}, K[ZD_MAX_FREE * ZD_MAX_FREE];
-    if (known->has_distribution) return forces;
-    forces->contacts = forces->components = 0;
-    for (int g = 0; g < full->groups; g++) {
-        const zd_group *normal = full->group + g;
-        if (normal->kind != ZD_ONE_SIDED || self->state[g] != ZD_CLOSED) continue;
-        const int friction = find_sticking(self, g), sticks = friction >= 0, contact = forces->contacts;
-        if (!with_normals && !sticks) continue;
-        zd_distribution_add(forces, -normal->sign * lambda[normal->first], with_normals,
-                            sticks ? lambda + full->group[friction].first : NULL, sticks ? full->group[friction].friction[0] : 0);
-        if (forces->contacts == contact) break;
-        known->normal[contact] = g, known->friction[contact] = friction;
-        if (with_normals) sign[count] = -normal->sign, rows[count++] = normal->first;
-        for (int i = 0; i < 2 * sticks; i++) sign[count] = 1, rows[count++] = full->group[friction].first + i;
+    for (int i = 0; i < contacts; i++) {
+        const int friction = find_friction(self, normals[i]);
+        slides |= friction >= 0 && zd_slides(self->state[friction]);
     }
-    find_products(self, count, rows, sign, K);
-    zd_distribution_find(forces, K);
-    known->has_distribution = 1;
-    return forces;
+    to->forces.contacts = to->forces.components = 0;
+    for (int i = 0; i < contacts; i++) {
+        const zd_group *normal = group + normals[i];
+        const int g = find_friction(self, normals[i]), sticks = g >= 0 && self->state[g] == ZD_CLOSED, contact = to->forces.contacts;
+        if (slides && !sticks) continue;
+        zd_distribution_add(&to->forces, -normal->sign * lambda[normal->first], !slides, sticks ? lambda + group[g].first : NULL,
+                            sticks ? group[g].friction[0] : 0);
+        if (to->forces.contacts == contact) break;
+        to->normal[contact] = normals[i], to->friction[contact] = sticks ? g : -1;
+        if (!slides) sign[count] = -normal->sign, rows[count++] = normal->first;
+        for (int k = 0; k < 2 * sticks; k++) sign[count] = 1, rows[count++] = group[g].first + k;
+    }
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < count; k++) K[i * count + k] = sign[i] * sign[k] * find_product(self, rows[i], rows[k]);
+    zd_distribution_find(&to->forces, K);
 }
 
-/* Normal force of a contact in the distribution; `otherwise` if it has no part in it. */
+const zd_part_forces *zd_phase_part_forces(const zd_phase_system *self, int index, const double *lambda)
+{
+    const zd_group *group = self->full->group + index;
+    const int normal = group->normal ? group->normal - 1 : index;
+    zd_known_terms *known = self->known;
+    for (int k = 0; k < known->parts; k++)
+        for (int i = 0; i < known->part[k].forces.contacts; i++)
+            if (known->part[k].normal[i] == normal) return known->part + k;
+    find_part(self, normal, lambda, known->part + known->parts);
+    return known->part + known->parts++;
+}
+
+/* Normal force of a closed contact in the distribution; `otherwise` if it has no part in it. */
 static double find_distributed_normal(const zd_phase_system *self, int index, const double *lambda, double otherwise)
 {
-    const zd_distribution *forces = zd_phase_distribution(self, lambda);
-    for (int i = 0; i < forces->contacts; i++)
-        if (self->known->normal[i] == index) return forces->force[3 * i];
+    const zd_part_forces *part = zd_phase_part_forces(self, index, lambda);
+    for (int i = 0; i < part->forces.contacts; i++)
+        if (part->normal[i] == index) return part->forces.force[3 * i];
     return otherwise;
 }
 
@@ -99,7 +132,7 @@ static double find_normal_margin(const zd_phase_system *self, int index, const d
     switch (self->state[index]) {
     case ZD_CLOSED: {
         const double N = -group->sign * lambda[group->first];
-        return fmin(within, self->is_indeterminate && !self->has_sliding_pairs ? find_distributed_normal(self, index, lambda, N) : N);
+        return fmin(within, self->is_indeterminate && group->kind == ZD_ONE_SIDED ? find_distributed_normal(self, index, lambda, N) : N);
     }
     case ZD_IDLE: return fmin(within, gap + ZD_TOUCHING * (group->scale > 0 ? group->scale : self->full->length));
     case ZD_BEHIND: return group->opposite ? within : fmin(within, -gap);
@@ -114,7 +147,7 @@ static double find_sticking_margin(const zd_phase_system *self, int index, const
     if (group->rows == 1) return find_total_bound(self, index, lambda) - fabs(lambda[group->first]);
     const double bound = zd_friction_bound(self->full, index, 0, lambda);
     if (!self->is_indeterminate) return bound - zd_hypotenuse(lambda[group->first], lambda[group->first + 1]);
-    return zd_phase_distribution(self, lambda)->margin;
+    return zd_phase_part_forces(self, index, lambda)->forces.margin;
 }
 
 /* Slip velocity along the direction of slip, which changes its sign where friction begins to stick. */

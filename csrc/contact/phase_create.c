@@ -137,11 +137,7 @@ zd_phase_system *zd_phase_system_create(zd_arena *arena, const zd_system *full, 
     self->slow_slip = ZD_SLOW_SLIP * (full->length > 0 ? full->length : 1);
     zd_known_terms known = {.p = zd_arena_doubles(arena, full->nq), .v = zd_arena_doubles(arena, full->nv),
                             .row = zd_arena_doubles(arena, full->nv)};
-    if (zd_has_pairs(full)) {
-        known.distribution = zd_arena_bytes(arena, sizeof *known.distribution);
-        known.normal = zd_arena_ints(arena, ZD_MAX_DISTRIBUTED);
-        known.friction = zd_arena_ints(arena, ZD_MAX_DISTRIBUTED);
-    }
+    if (zd_has_pairs(full)) known.part = zd_arena_bytes(arena, groups * sizeof *known.part);
     self->known = zd_arena_copy(arena, &known, sizeof known);
     self->scratch = zd_arena_doubles(arena, full->scratch + self->size_of_C + full->mh + 2 * (size_t)m);
     self->layout = zd_layout_create(arena, full);

@@ -56,7 +56,7 @@ int zd_phase_evaluate(const zd_phase_system *self, int want, double t, const dou
     const zd_terms own = {.scratch = self->scratch, .inputs = NULL}, terms = terms_in(self, &own);
     const int status = full->evaluate(full->data, (want & full->provides) | ZD_MOVED, t, p, v, &terms);
     if (!status && want & ZD_PHI_T && !(full->provides & ZD_PHI_T)) zd_clear(zd_constraints(full), terms.Phi_t);
-    self->known->terms = self->known->has_distribution = 0;
+    self->known->terms = self->known->parts = 0;
     return status;
 }
 

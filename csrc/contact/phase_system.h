@@ -27,13 +27,17 @@ typedef struct zd_sliding {     /* friction of a group that slides */
 } zd_sliding;
 
 /* Terms of the full system's constraints that are those of a state. */
+typedef struct zd_part_forces {     /* contacts that act on each other, whose forces may not be determined */
+    zd_distribution forces;
+    int normal[ZD_MAX_DISTRIBUTED], friction[ZD_MAX_DISTRIBUTED];       /* groups of its contacts; -1: no friction that sticks */
+} zd_part_forces;
+
 typedef struct zd_known_terms {
     int terms;
     double t, *p, *v;       /* s, (nq,), (nv,) */
     double *row;            /* (nv,) a row of C, expanded */
-    int has_distribution;   /* true if the distribution is that of the state */
-    zd_distribution *distribution;      /* NULL: no contact is in space */
-    int *normal, *friction; /* (ZD_MAX_DISTRIBUTED,) groups of its contacts; -1: no friction */
+    int parts;              /* number of parts whose forces are those of the state */
+    zd_part_forces *part;   /* (groups,); NULL: no contact is in space */
 } zd_known_terms;
 
 typedef struct zd_phase_system zd_phase_system;
@@ -108,9 +112,9 @@ double zd_phase_gap(const zd_phase_system *self, int group);
 double zd_phase_range_margin(const zd_phase_system *self, int group);
 /* Number of measures of the full system. */
 static inline int zd_own_measures(const zd_system *full) { return full->measures ? full->measures->count : 0; }
-/* Forces of the contacts that are closed and stick, in the distribution with the largest margin; C of the state must be known. While
- * friction in two directions slides elsewhere, normal forces are given. */
-const zd_distribution *zd_phase_distribution(const zd_phase_system *self, const double *lambda);
+/* Forces of the contacts that are closed and stick and act on that of a group, in the distribution with the largest margin; C of the state
+ * must be known. While friction in two directions slides among them, normal forces are given. */
+const zd_part_forces *zd_phase_part_forces(const zd_phase_system *self, int group, const double *lambda);
 /* Sets the functions of a phase whose rows are known. */
 void zd_phase_pass_functions(zd_phase_system *self);
 /* First row of the multipliers that are the load of friction. */

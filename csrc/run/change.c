@@ -37,8 +37,8 @@ static int make_impact(zd_contacts *it)
     int is_any = 0;
     for (int k = 0; k < it->normals; k++) is_any |= it->w[k] < -STILL * zd_rest_speed(it, k);
     if (!is_any) return ZD_DONE;
-    zd_candidate given[ZD_MAX_CANDIDATES];
-    double direction[ZD_MAX_CANDIDATES];
+    zd_candidate given[ZD_MAX_TOUCHING];
+    double direction[ZD_MAX_TOUCHING];
     memcpy(given, it->row, sizeof given);
     memcpy(direction, it->direction, sizeof direction);
     memset(it->direction, 0, sizeof it->direction);
@@ -54,7 +54,7 @@ static int make_impact(zd_contacts *it)
     memcpy(it->direction, direction, sizeof direction);
     if (status) return status;
     for (int k = rows; k < it->count; k++) it->z[k] = 0;
-    double before[ZD_MAX_CANDIDATES];
+    double before[ZD_MAX_TOUCHING];
     memcpy(before, it->w, sizeof before);
     zd_contacts_apply(it, it->z);
     zd_contacts_find_velocities(it);
@@ -105,24 +105,6 @@ static int find_accelerations(zd_contacts *it)
     return status;
 }
 
-/* z (count,) <- impulses along the closed and sticking rows that change their velocities by -w (count,). */
-static int find_correction(const zd_contacts *it, const double *w, double *z)
-{
-    double A[ZD_MAX_CANDIDATES * ZD_MAX_CANDIDATES], x[ZD_MAX_CANDIDATES];
-    int active[ZD_MAX_CANDIDATES], count = 0;
-    for (int k = 0; k < it->count; k++)
-        if (it->state[k] == ZD_CLOSED) active[count++] = k;
-    for (int a = 0; a < count; a++) {
-        x[a] = -w[active[a]];
-        for (int c = 0; c < count; c++) A[a * count + c] = it->W[active[a] * it->count + active[c]];
-    }
-    const int is_dependent = it->free_forces || it->free_normals;       /* rows then contradict each other by rounding */
-    if (!zd_equations_solve(count, A, x) && !is_dependent) return ZD_SINGULAR;
-    memset(z, 0, ZD_MAX_CANDIDATES * sizeof *z);
-    for (int a = 0; a < count; a++) z[active[a]] = x[a];
-    return ZD_DONE;
-}
-
 /* Gaps of contacts that close become zero, as by one iteration of (25a): p <- p + A x z */
 static int close_gaps(zd_contacts *it)
 {
@@ -130,8 +112,8 @@ static int close_gaps(zd_contacts *it)
     zd_state *at = &it->phases->at;
     zd_point *point = motion->point;
     const int nv = motion->system.nv, nq = motion->system.nq;
-    double z[ZD_MAX_CANDIDATES], *change = point->force;
-    int status = find_correction(it, it->gap, z);
+    double z[ZD_MAX_TOUCHING], *change = point->force;
+    int status = zd_contacts_find_correction(it, it->gap, z);
     zd_clear(nv, change);
     for (int k = 0; k < it->count; k++)
         for (int i = 0; i < nv; i++) change[i] -= it->x[(size_t)k * nv + i] * z[k];
@@ -164,11 +146,11 @@ static void add_omitted_time(zd_contacts *it)
 /* Velocities along closed and sticking rows become zero; the second correction removes the rounding of the first. */
 static int bring_to_rest(zd_contacts *it)
 {
-    double z[ZD_MAX_CANDIDATES], *energy = &it->run->motion.statistics.omitted_bounce_energy;
+    double z[ZD_MAX_TOUCHING], *energy = &it->run->motion.statistics.omitted_bounce_energy;
     int status = ZD_DONE;
     for (int i = 0; i < 2 && !status; i++) {
         zd_contacts_find_velocities(it);
-        status = find_correction(it, it->w, z);
+        status = zd_contacts_find_correction(it, it->w, z);
         for (int k = 0; k < it->count && !status && !i; k++) *energy -= z[k] * it->w[k] / 2;
         if (!status) zd_contacts_apply(it, z);
     }

@@ -52,11 +52,10 @@ static signed char find_pair_end(const zd_contacts *it, int g, double *direction
     int is_any = has_ended(it, g);
     if (phases->state[g] != ZD_CLOSED) return ZD_OPEN;
     if (of->is_indeterminate) {
-        const zd_distribution *forces = zd_phase_distribution(of, lambda);
-        for (int i = 0; i < forces->contacts; i++) {
-            const int friction = of->known->friction[i];
-            is_any |= friction >= 0 && has_ended(it, friction);
-            if (friction == g) f = forces->weight[i] > LIMITING_SHARE ? forces->force + 3 * i + 1 : NULL;
+        const zd_part_forces *part = zd_phase_part_forces(of, g, lambda);
+        for (int i = 0; i < part->forces.contacts; i++) {
+            is_any |= part->friction[i] >= 0 && has_ended(it, part->friction[i]);
+            if (part->friction[i] == g) f = part->forces.weight[i] > LIMITING_SHARE ? part->forces.force + 3 * i + 1 : NULL;
         }
     }
     if (!is_any || !f) return ZD_OPEN;
@@ -100,8 +99,8 @@ static int find_normal_state(const zd_contacts *it, int g, int is_start)
 static int add_candidate(zd_contacts *it, int g, int component, int normal, double gap)
 {
     const zd_group *group = it->phases->full->group + g;
-    if (it->count == ZD_MAX_CANDIDATES) {
-        snprintf(it->run->outcome.message, ZD_MESSAGE, "at most %d contacts and frictions may change at one instant", ZD_MAX_CANDIDATES);
+    if (it->count == ZD_MAX_TOUCHING) {
+        snprintf(it->run->outcome.message, ZD_MESSAGE, "at most %d contacts and frictions may change at one instant", ZD_MAX_TOUCHING);
         return ZD_SEVERAL_MOTIONS;
     }
     it->group[it->count] = g;
@@ -172,7 +171,7 @@ int zd_contacts_find_loads(zd_contacts *it)
 int zd_contacts_allocate(zd_contacts *it)
 {
     const size_t n = it->count, nv = it->phases->full->nv, m = it->phases->full->mh + it->phases->full->mn;
-    it->memory = zd_allocate((2 * n * nv + n * n + zd_problem_scratch((int)n) + m + 1) * sizeof(double));
+    it->memory = zd_allocate((2 * n * nv + n * n + zd_problem_scratch(ZD_MAX_CANDIDATES) + m + 1) * sizeof(double));
     it->g = it->memory;
     if (!it->memory) return ZD_NO_MEMORY;
     it->x = it->g + n * nv;
@@ -208,6 +207,7 @@ int zd_contacts_find_answers(zd_contacts *it)
     }
     for (int j = 0; j < n && !status; j++)
         for (int k = 0; k < n; k++) it->W[j * n + k] = zd_dot(nv, it->g + (size_t)j * nv, it->x + (size_t)k * nv);
+    if (!status) zd_contacts_find_parts(it);
     return status;
 }
 
@@ -229,29 +229,4 @@ void zd_contacts_apply(zd_contacts *it, const double *z)
         it->is_changed |= z[k] != 0;
         for (int i = 0; i < nv; i++) it->phases->at.v[i] += it->x[(size_t)k * nv + i] * z[k];
     }
-}
-
-int zd_contacts_solve(zd_contacts *it, int rows, const char *what)
-{
-    int opens = 0;
-    for (int k = 0; k < rows; k++) opens |= it->ends[k] != ZD_OPEN;
-    zd_contact_problem problem = {rows, it->row, it->W, it->b, zd_has_pairs(it->phases->full), opens, it->state, it->tie, it->factor,
-                                  it->z, it->after, it->direction, 0, 0, it->scratch};
-    double W[ZD_MAX_CANDIDATES * ZD_MAX_CANDIDATES];
-    if (rows < it->count) {
-        for (int j = 0; j < rows; j++)
-            for (int k = 0; k < rows; k++) W[j * rows + k] = it->W[j * it->count + k];
-        problem.W = W;
-    }
-    const int found = zd_problem_solve(&problem);
-    it->free_forces = problem.free_forces, it->free_normals = problem.free_normals;
-    if (found == 1) return ZD_DONE;
-    const char *how = found == -2 ? "the normal forces that bound sliding friction are not determined: contacts must be fewer"
-                    : found < 0 ? "too many contacts change at one instant: they must be fewer"
-                    : !found ? rows > it->normals ? "no solution exists, as in Painleve's paradox: friction must be smaller"
-                                                  : "no solution exists: drives and joints must allow the bodies to stop"
-                    : "several solutions exist, as in Painleve's paradox: friction must be smaller";
-    snprintf(it->run->outcome.message, ZD_MESSAGE, "%s of contact '%s' and those that act with it: %s", what, zd_candidate_group(it, 0)->name,
-             how);
-    return ZD_SEVERAL_MOTIONS;
 }

@@ -5,29 +5,32 @@
 #include "../contact/problem.h"
 #include "phases.h"
 
+enum { ZD_MAX_TOUCHING = 256 };     /* candidates at one instant; those that act on each other are ZD_MAX_CANDIDATES at most */
+
 typedef struct zd_contacts {
     zd_run *run;
     zd_phases *phases;
     int count, normals;     /* candidates: normal rows, then friction */
-    int group[ZD_MAX_CANDIDATES];
-    int component[ZD_MAX_CANDIDATES];   /* row of the group */
-    double sign[ZD_MAX_CANDIDATES];
-    zd_candidate row[ZD_MAX_CANDIDATES];
-    signed char state[ZD_MAX_CANDIDATES];
-    int tie[ZD_MAX_CANDIDATES];
-    double factor[ZD_MAX_CANDIDATES];
-    double direction[ZD_MAX_CANDIDATES];    /* component of the unit vector of slip of a pair */
-    double slip_error[ZD_MAX_CANDIDATES];   /* m/s: slip that counts as zero where it has just reversed */
+    int group[ZD_MAX_TOUCHING];
+    int component[ZD_MAX_TOUCHING];   /* row of the group */
+    double sign[ZD_MAX_TOUCHING];
+    zd_candidate row[ZD_MAX_TOUCHING];
+    signed char state[ZD_MAX_TOUCHING];
+    int tie[ZD_MAX_TOUCHING];
+    double factor[ZD_MAX_TOUCHING];
+    double direction[ZD_MAX_TOUCHING];    /* component of the unit vector of slip of a pair */
+    double slip_error[ZD_MAX_TOUCHING];   /* m/s: slip that counts as zero where it has just reversed */
     int has_reversed;       /* true if a slip in two directions has */
     int free_forces, free_normals;      /* numbers of forces that are not determined: of contacts that stick, and normal ones */
-    double gap[ZD_MAX_CANDIDATES];
-    double w[ZD_MAX_CANDIDATES], b[ZD_MAX_CANDIDATES], z[ZD_MAX_CANDIDATES], after[ZD_MAX_CANDIDATES];
-    double omitted[ZD_MAX_CANDIDATES];      /* m/s: speed that a bounce would have after an impact slower than the rest speed */
+    int part[ZD_MAX_TOUCHING], parts;       /* candidates of the same part act on each other */
+    double gap[ZD_MAX_TOUCHING];
+    double w[ZD_MAX_TOUCHING], b[ZD_MAX_TOUCHING], z[ZD_MAX_TOUCHING], after[ZD_MAX_TOUCHING];
+    double omitted[ZD_MAX_TOUCHING];      /* m/s: speed that a bounce would have after an impact slower than the rest speed */
     double *g, *x;          /* (count, nv) */
     double *W, *scratch, *zero;     /* (count, count); of the problem; (m,) */
     signed char *next;      /* (groups,) */
     int is_changed;         /* true if an impulse has changed velocities */
-    signed char ends[ZD_MAX_CANDIDATES];    /* state that a row must enter whose margin became zero at this instant; ZD_OPEN: any */
+    signed char ends[ZD_MAX_TOUCHING];    /* state that a row must enter whose margin became zero at this instant; ZD_OPEN: any */
     void *memory;
 } zd_contacts;
 
@@ -43,8 +46,12 @@ int zd_contacts_find_answers(zd_contacts *self);
 void zd_contacts_find_velocities(zd_contacts *self);
 /* v <- v + x z */
 void zd_contacts_apply(zd_contacts *self, const double *z);
-/* Solves the problem of the first rows with b; `what` is its name in messages. */
+/* Parts of the candidates, by W. */
+void zd_contacts_find_parts(zd_contacts *self);
+/* Solves the problems of the first rows with b; `what` is their name in messages. */
 int zd_contacts_solve(zd_contacts *self, int rows, const char *what);
+/* z (count,) <- impulses along the closed and sticking rows that change their velocities by -w (count,). */
+int zd_contacts_find_correction(const zd_contacts *self, const double *w, double *z);
 /* Row of the constraints of the full system that a candidate is. */
 static inline int zd_candidate_row(const zd_contacts *self, int k)
 {
