@@ -26,12 +26,12 @@ void zd_contacts_find_parts(zd_contacts *it)
     for (int k = 0; k < it->count; k++) it->part[k] = -1;
     it->parts = 0;
     for (int first = 0; first < it->count; first++) {
-        if (it->part[first] >= 0) continue;
+        if (it->part[first] >= 0 || it->is_held[first]) continue;
         it->part[first] = it->parts;
         found[0] = first;
         for (int i = 0, count = 1; i < count; i++)
             for (int k = first; k < it->count; k++)
-                if (it->part[k] < 0 && are_coupled(it, found[i], k)) it->part[k] = it->parts, found[count++] = k;
+                if (it->part[k] < 0 && !it->is_held[k] && are_coupled(it, found[i], k)) it->part[k] = it->parts, found[count++] = k;
         it->parts++;
     }
 }
@@ -68,10 +68,14 @@ static int solve_part(zd_contacts *it, const part *of)
         const int k = of->row[i];
         row[i] = it->row[k], b[i] = it->b[k], direction[i] = it->direction[k];
         opens |= it->ends[k] != ZD_OPEN;
-        for (int j = 0; j < i && row[i].normal > 0; j++)
+        if (row[i].normal <= 0) continue;
+        row[i].normal = 0;
+        for (int j = 0; j < i; j++)
             if (of->row[j] == it->row[k].normal - 1) row[i].normal = j + 1;
+        if (!row[i].normal) row[i].bound[0] = row[i].bound[1] = 0;      /* its normal row is held */
     }
-    zd_contact_problem problem = {n, row, W, b, zd_has_pairs(it->phases->full), opens, state, tie, factor, z, w, direction, 0, 0, it->scratch};
+    const int is_min_norm = zd_has_pairs(it->phases->full);
+    zd_contact_problem problem = {n, row, W, b, is_min_norm, opens, state, tie, factor, z, w, direction, 0, 0, it->scratch};
     const int found = zd_problem_solve(&problem);
     it->free_forces += problem.free_forces, it->free_normals += problem.free_normals;
     for (int i = 0; i < n && found == 1; i++) {
@@ -86,6 +90,8 @@ int zd_contacts_solve(zd_contacts *it, int rows, const char *what)
 {
     part one;
     it->free_forces = it->free_normals = 0;
+    for (int k = 0; k < rows; k++)
+        if (it->part[k] < 0) it->state[k] = ZD_IDLE, it->tie[k] = -1, it->z[k] = it->after[k] = 0;
     for (int index = 0; index < it->parts; index++) {
         const int found = list(it, index, rows, &one) ? solve_part(it, &one) : -1;
         if (found == 1) continue;

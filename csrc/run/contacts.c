@@ -9,6 +9,8 @@
 #include "../linalg/roots.h"
 #include "../point/point.h"
 
+static const double HELD = 1e-11;      /* share of an impulse that is rounding where constraints cancel it */
+
 static int refuse_start(zd_contacts *it, const zd_group *group, double gap)
 {
     snprintf(it->run->outcome.message, ZD_MESSAGE, "the start must not penetrate contact '%s': its gap is %.3g", group->name, gap);
@@ -171,13 +173,14 @@ int zd_contacts_find_loads(zd_contacts *it)
 int zd_contacts_allocate(zd_contacts *it)
 {
     const size_t n = it->count, nv = it->phases->full->nv, m = it->phases->full->mh + it->phases->full->mn;
-    it->memory = zd_allocate((2 * n * nv + n * n + zd_problem_scratch(ZD_MAX_CANDIDATES) + m + 1) * sizeof(double));
+    it->memory = zd_allocate((2 * n * nv + n * n + zd_problem_scratch(ZD_MAX_CANDIDATES) + m + 1 + 2 * nv) * sizeof(double));
     it->g = it->memory;
     if (!it->memory) return ZD_NO_MEMORY;
     it->x = it->g + n * nv;
     it->W = it->x + n * nv;
     it->zero = it->W + n * n;
-    it->scratch = it->zero + m + 1;
+    it->net = it->zero + m + 1;
+    it->scratch = it->net + 2 * nv;
     return ZD_DONE;
 }
 
@@ -195,6 +198,25 @@ int zd_contacts_find_rows(zd_contacts *it)
     return status;
 }
 
+/* True if impulses of the constraints cancel one along row k to rounding, which so cannot move anything. `net`, `size` (nv,): scratch. */
+static int is_held(const zd_contacts *it, int k, double *net, double *size)
+{
+    const zd_phase_system *of = it->phases->present->of;
+    const int nv = of->full->nv;
+    const double *g = it->g + (size_t)k * nv, *lambda = it->run->motion.point->lambda;
+    for (int i = 0; i < nv; i++) net[i] = g[i], size[i] = fabs(g[i]);
+    for (int row = 0; row < zd_constraints(&of->system); row++) {
+        const zd_row_of_C C = zd_phase_row(of, of->row[row]);
+        for (int j = 0; j < C.count; j++) {
+            const double impulse = C.x[j] * lambda[row];
+            net[zd_column(&C, j)] -= impulse, size[zd_column(&C, j)] += fabs(impulse);
+        }
+    }
+    for (int i = 0; i < nv; i++)
+        if (fabs(net[i]) > HELD * size[i]) return 0;
+    return 1;
+}
+
 int zd_contacts_find_answers(zd_contacts *it)
 {
     zd_motion *motion = &it->run->motion;
@@ -204,6 +226,9 @@ int zd_contacts_find_answers(zd_contacts *it)
     for (int k = 0; k < n && !status; k++) {
         zd_motion_solve(motion, it->g + (size_t)k * nv, it->zero, it->x + (size_t)k * nv, motion->point->lambda);
         motion->statistics.solves++;
+        zd_rank_find_multipliers(motion->point);
+        it->is_held[k] = is_held(it, k, it->net, it->net + nv);
+        if (it->row[k].pair == 2) it->is_held[k] = it->is_held[k - 1] = it->is_held[k] && it->is_held[k - 1];
     }
     for (int j = 0; j < n && !status; j++)
         for (int k = 0; k < n; k++) it->W[j * n + k] = zd_dot(nv, it->g + (size_t)j * nv, it->x + (size_t)k * nv);

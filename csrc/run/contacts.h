@@ -22,12 +22,13 @@ typedef struct zd_contacts {
     double slip_error[ZD_MAX_TOUCHING];   /* m/s: slip that counts as zero where it has just reversed */
     int has_reversed;       /* true if a slip in two directions has */
     int free_forces, free_normals;      /* numbers of forces that are not determined: of contacts that stick, and normal ones */
-    int part[ZD_MAX_TOUCHING], parts;       /* candidates of the same part act on each other */
+    int part[ZD_MAX_TOUCHING], parts;       /* candidates of the same part act on each other; -1: it is held */
     double gap[ZD_MAX_TOUCHING];
     double w[ZD_MAX_TOUCHING], b[ZD_MAX_TOUCHING], z[ZD_MAX_TOUCHING], after[ZD_MAX_TOUCHING];
     double omitted[ZD_MAX_TOUCHING];      /* m/s: speed that a bounce would have after an impact slower than the rest speed */
     double *g, *x;          /* (count, nv) */
-    double *W, *scratch, *zero;     /* (count, count); of the problem; (m,) */
+    double *W, *scratch, *zero, *net;       /* (count, count); of the problem; (m,); (2 nv,) */
+    int is_held[ZD_MAX_TOUCHING];           /* true if the other constraints prevent all motion along the row */
     signed char *next;      /* (groups,) */
     int is_changed;         /* true if an impulse has changed velocities */
     signed char ends[ZD_MAX_TOUCHING];    /* state that a row must enter whose margin became zero at this instant; ZD_OPEN: any */

@@ -34,8 +34,9 @@ def test_energy_is_corrected_as_in_a_single_run(kind, options):
         assert (ens._part.paths == LANES).all()
         for run in (0, 5, 8):
             kept, sol = ens[run], zd.simulate(system, 1.0, v0=starts[run], **options)
-            for name in ENERGIES:       # what rounding has left nothing of is not counted
-                assert abs(kept.stats[name] - sol.stats[name]) <= 1
+            events = sum(map(len, sol.t_events or ()))
+            for name in ENERGIES:       # what rounding has left nothing of is not counted; single runs keep both sides of events
+                assert abs(kept.stats[name] - sol.stats[name]) <= 1 + 2 * events
             assert kept.stats["energy_corrected"] == pytest.approx(sol.stats["energy_corrected"], rel=1e-6, abs=1e-15)
             assert np.array_equal(kept.energy_skipped, sol.energy_skipped)
             for name in ("p", "v", "energy_violation"):

@@ -288,12 +288,16 @@ def test_studies_that_know_no_phases_refuse_by_name():
 
 def test_arguments_are_refused_by_name():
     m, slide = slider()
+    other = zd.Mechanism("other")
+    other.body("b", 1.0, 1.0)
     wrong = [(lambda: m.stop("a", slide.displacement), "lower="),
              (lambda: m.stop("a", slide.speed, upper=1.0, restitution=0.5), "rate"),
              (lambda: m.stop("a", slide.displacement, lower=1.0, upper=0.0), "less than upper"),
              (lambda: m.contact("c", m["block"], "floor"), "a shape of a body"),
              (lambda: m.contact("c", m["block"], m.ground.line((0, 0), (1, 0)), restitution=1.2), "at most 1"),
              (lambda: m.contact("c", m["block"], m.ground.line((0, 0), (1, 0)), friction=(0.1, 0.2)), "static"),
+             (lambda: m.contact("c", m["block"], other["b"].line((0, 0), (1, 0))), "another mechanism"),
+             (lambda: m.contact("c", other["b"], m.ground.line((0, 0), (1, 0))), "another mechanism"),
              (lambda: m.ground.line((0, 0), (0, 0)), "two places"),
              (lambda: m.revolute("r", m.ground, m["block"], at=(1, 1), friction=0.1), "radius="),
              (lambda: m.latch("l", slide, when="slide.displacement"), "active=")]

@@ -50,6 +50,20 @@ def test_runs_of_blocks_have_the_bits_of_simulate(name):
     assert (core.nq, core.nv, core.mh, core.mn) == (system.nq, system.nv, system.mh, system.mn)
 
 
+@pytest.mark.parametrize(("when", "until", "speed"), [("axle.angle - 0.02", "2 * axle.angle - 0.1", 1.0),
+                                                      ("-0.02 - axle.angle", None, -1.0)])
+def test_latches_of_text_are_carried(when, until, speed):
+    """Linear functions of one measure, rising or falling."""
+    m = zd.Mechanism("wheel")
+    wheel = m.body("wheel", 1.0, 0.1)
+    m.revolute("axle", m.ground, wheel, at=(0, 0))
+    m.latch("catch", m.weld("pawl", m.ground, wheel, at=(0, 0), active=False), when=when, until=until)
+    m.start({"axle.speed": speed})
+    system = m.system()
+    assert_bits(system)
+    assert zd.simulate(system, STEPS * STEP, step=STEP).impacts["t"] == pytest.approx([0.02], rel=1e-12)
+
+
 @pytest.mark.parametrize("name", ["four_bar", "andrews", "double_wishbone", "coin"])
 def test_also_in_absolute_coordinates(name):
     system = getattr(zd.models, name)().system("absolute")

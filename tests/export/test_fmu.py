@@ -279,7 +279,7 @@ def test_events_set_inputs(tmp_path, version, early):
 
 
 def test_events_of_units_are_quantities_that_reach_a_value(tmp_path):
-    with refused("not-portable", "not be a function"):
+    with refused("not-portable", "not a function of several"):
         with_events(tmp_path, "3.0", lambda t, p, v: p[0])
     with refused("not-available", "terminal must be True or False"):
         with_events(tmp_path, "3.0", zd.Event("pin.speed", value=0.3, terminal=2))

@@ -268,7 +268,7 @@ static int check_switched_group(const zd_system *system, int i, text message)
     if ((group->kind == ZD_ONE_SIDED || group->kind == ZD_ONE_WAY) && group->sign != 1 && group->sign != -1)
         return refuse(message, "groups: %s must have a sign of 1 or -1", group->name);
     if (!(group->restitution >= 0 && group->restitution <= 1) || !isfinite(group->value))
-        return refuse(message, "groups: the restitution of %s must be 0 to 1, and its value finite", group->name);
+        return refuse(message, "the restitution of '%s' must be 0 to 1, not %g, and its limit finite", group->name, group->restitution);
     if (group->range < 0 || group->range > system->mh || (group->range && !(group->lower < group->upper)))
         return refuse(message, "groups: the range of %s must be of a holonomic row, with lower less than upper", group->name);
     if (group->opposite < 0 || group->opposite > system->groups
@@ -276,7 +276,8 @@ static int check_switched_group(const zd_system *system, int i, text message)
         return refuse(message, "groups: the opposite side of %s must be a one-sided group", group->name);
     if (group->kind != ZD_FRICTION) return ZD_DONE;
     if (!(group->friction[1] >= 0 && group->friction[0] >= group->friction[1]))
-        return refuse(message, "groups: friction of %s must not be negative, nor sliding friction more than static", group->name);
+        return refuse(message, "friction of '%s' must not be negative, nor sliding friction more than static, and is %g and %g", group->name,
+                      group->friction[1], group->friction[0]);
     if (group->normal < 0 || group->normal > system->groups || (group->normal && system->group[group->normal - 1].kind != ZD_ONE_SIDED))
         return refuse(message, "groups: the normal of %s must be a one-sided group", group->name);
     if (group->loads < 0 || group->loads > 4 || (group->at_ends && group->loads % 2)

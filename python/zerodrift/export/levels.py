@@ -18,8 +18,8 @@ def levels(given: Any, system: BaseSystem) -> tuple[Watched, ...]:
     found = events(given, system) or ()
     for each in found:
         if each.known is None or each.known.function or each.known.readings[0].what not in SOURCES:
-            raise WrongValue(f"{each.name} of a block must be a measure, coordinate or velocity that reaches a value, and not be "
-                             "a function", "not-portable")
+            raise WrongValue(f"{each.name} of a block must be a measure, coordinate or velocity that reaches a value, not a "
+                             "function of several: make that a measure with m.measure", "not-portable")
     return found
 
 

@@ -93,7 +93,10 @@ class ContactVerbs(Elements):
             raise WrongValue(f"radius of {name!r} must be greater than 0 for a {type(shape).__name__.lower()} of radius 0",
                              "out-of-range")
         given = self._named("first", first)
-        point = given.point(np.zeros(self.dimension)) if isinstance(given, Body) and given.turns else self._point("first", given)
+        if isinstance(given, Body) and given.turns:
+            given = self._body("first", given).point(np.zeros(self.dimension))
+        point = self._point("first", given)
+        self._body(f"body of the shape of {name!r}", shape.body)
         one, other = self._different(name, shape.body.point(shape.start), point)
         self._turning(name, "line of", one.body)
         if radius or any(checks.friction(f"friction of {name!r}", friction)):
@@ -248,6 +251,9 @@ def with_switches(m: Elements, joint: Joint, given: Mapping[str, Any]) -> Joint:
 def _compliance(name: str, stiffness: Any, damping: Any, exponent: Any) -> Compliance | None:
     """Law of a compliant contact, checked; None: it is rigid."""
     if stiffness is None:
+        if damping or exponent != 1.0:
+            raise WrongType(f"damping= and exponent= of {name!r} go with stiffness=, the law of a compliant contact or stop",
+                            "conflicting-arguments")
         return None
     return Compliance(checks.number(f"stiffness of {name!r}", stiffness, above=0),
                       checks.number(f"damping of {name!r}", damping, least=0),

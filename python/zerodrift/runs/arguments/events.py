@@ -106,9 +106,9 @@ class Event:
 
     def watched(self, name: str, system: BaseSystem) -> Watched:
         """The event, checked for a system; error messages call it `name`, such as ``events[1]``."""
-        level, function, known = checks.number(f"value of {name}", self.value), None, None
+        level, function, known, sign = checks.number(f"value of {name}", self.value), None, None, 1
         if hasattr(self.what, "free_symbols"):
-            function, known = _expression(name, self.what, system, dict(self.of or {}), level)
+            function, known, sign = _expression(name, self.what, system, dict(self.of or {}), level)
         elif callable(self.what):
             function = _Called(name, self.what, system, tuple(self.of or {}), level)
             bound = [_reading(f"of[{key!r}] of {name}", measure, system) for key, measure in (self.of or {}).items()]
@@ -118,7 +118,7 @@ class Event:
                              f"{checks.shown(self.what)} is a measure", "conflicting-arguments")
         else:
             known = gateway.KnownEvent((_reading(name, self.what, system),), level)
-        return _watched(name, function, self.direction, self.terminal, known, _action(name, self.then))
+        return _watched(name, function, sign * self.direction, self.terminal, known, _action(name, self.then))
 
 
 def _action(name: str, then: Any) -> Callable[[Any], object] | Mapping[str, float] | None:
@@ -132,16 +132,19 @@ def _action(name: str, then: Any) -> Callable[[Any], object] | Mapping[str, floa
 
 
 def _expression(name: str, what: Any, system: BaseSystem, of: dict[str, Any],
-                level: float) -> tuple[Callable[..., float] | None, gateway.KnownEvent | None]:
-    """The function that an expression is: one that the core knows, or else one of Python."""
+                level: float) -> tuple[Callable[..., float] | None, gateway.KnownEvent | None, int]:
+    """The function that an expression is: one that the core knows, or else one of Python; and the sign of its direction."""
     from . import expressions  # slow to import, as SymPy is
 
     found = expressions.read(name, what, system, of, is_dynamic=True)
+    if line := expressions.line(found):
+        slope, constant = line
+        return None, gateway.KnownEvent((found.readings[0],), (level - constant) / slope), 1 if slope > 0 else -1
     program = expressions.program(name, found) if found.readings else None
     if program is None:
         value = expressions.in_python(found)
-        return lambda t, p, v, x: value(*x) - level, _called(found.readings, level)
-    return None, gateway.KnownEvent(tuple(program[1]), level, program[0], found.parameters)
+        return lambda t, p, v, x: value(*x) - level, _called(found.readings, level), 1
+    return None, gateway.KnownEvent(tuple(program[1]), level, program[0], found.parameters), 1
 
 
 def _called(readings: list[Reading], level: float) -> gateway.KnownEvent | None:

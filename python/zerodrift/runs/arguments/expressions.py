@@ -74,6 +74,16 @@ def _rate(what: str, derivative: Any, system: BaseSystem) -> Reading:
     return Reading(VELOCITY, coordinates.index(name))
 
 
+def line(of: Read) -> tuple[float, float] | None:
+    """Slope and constant of a linear function of one quantity; None: it is another function."""
+    if len(of.atoms) != 1 or of.readings[0].what in (TIME, NUMBER):
+        return None
+    slope = of.expression.diff(of.atoms[0])
+    if not (slope.is_number and slope.is_real and slope):
+        return None
+    return float(slope), float(of.expression.xreplace({of.atoms[0]: 0}))
+
+
 def program(what: str, of: Read) -> tuple[tuple[Any, Any], list[Reading]] | None:
     """A `zd_expressions` of the readings with what it refers to, and its readings; None: the core lacks a function.
 

@@ -1,0 +1,70 @@
+"""Contacts that do not act on each other, and friction where other constraints prevent all motion: against closed forms."""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+
+G = 9.81
+FRICTION = 0.3
+
+
+@pytest.mark.parametrize(("boxes", "dimension", "options"), [
+    (12, 2, {"rtol": 1e-8}), (12, 2, {"step": 0.01}), (5, 3, {"rtol": 1e-8})], ids=["plane", "fixed", "space"])
+def test_each_box_slides_and_stops_as_if_it_were_alone(boxes, dimension, options):
+    """v^2 / 2 mu g; together they have more contacts than one problem may have."""
+    m = zd.Mechanism("boxes", gravity=(0, -G) if dimension == 2 else (0, 0, -G), dimension=dimension)
+    floor = m.ground.line((0, 0), (1, 0)) if dimension == 2 else m.ground.plane((0, 0, 0), (0, 0, 1))
+    speeds = 0.5 + 0.05 * np.arange(boxes)
+    for i, speed in enumerate(speeds):
+        inertia, at = (0.01, (i, 0.1)) if dimension == 2 else (np.diag([0.01, 0.01, 0.01]), (i, 0, 0.1))
+        body = m.body(f"box{i}", 1.0 + i, inertia, at=at)
+        corners = [(x, -0.1) for x in (-0.1, 0.1)] if dimension == 2 else [(x, y, -0.1) for x in (-0.1, 0.1) for y in (-0.1, 0.1)]
+        for k, corner in enumerate(corners):
+            m.contact(f"foot{i}{k}", body.point(corner), floor, friction=FRICTION)
+        m.start({f"box{i}.velocity.x": float(speed)})
+    sol = zd.simulate(m, 0.5, **options)
+    moved = [sol[f"box{i}.position.x"][-1] - i for i in range(boxes)]
+    assert np.abs(moved - speeds**2 / (2 * FRICTION * G)).max() < 1e-13     # rounding
+    assert sum(word == "sticking" for word in sol.phases[-1].state.values()) == boxes * len(corners)
+
+
+@pytest.mark.parametrize("pull", [1.0, 10.0])
+@pytest.mark.parametrize("friction", [{"friction": 0.3, "radius": 0.05}, {"friction_torque": 8.0}], ids=["load", "bound"])
+@pytest.mark.parametrize("coordinates", ["joint", "absolute"])
+def test_friction_of_a_joint_that_a_weld_holds_leaves_that_of_others_as_it_is(coordinates, friction, pull):
+    """Its row is redundant, and rounding does not decide which row is left out."""
+    m = zd.Mechanism("held", gravity=(0, -G))
+    link = m.link("link", (0, 0), (1, 0), mass=1.0)
+    m.revolute("pin", m.ground, link.start, **friction)
+    m.weld("lock", m.ground, link, at=(0, 0), active=True)
+    block = m.body("block", 1.0, 0.1, at=(10, 0))
+    slide = m.prismatic("slide", m.ground, block, at=(10, 0), axis=(1, 0), friction_force=2.0)
+    m.force("pull", block.point((0, 0)), value=pull, along=(1, 0))
+    sol = zd.simulate(m.system(coordinates), 0.1, step=0.01)
+    assert sol[slide.speed][-1] == pytest.approx(max(0.0, pull - 2.0) * 0.1, abs=1e-14)
+    assert sol["slide.force.x"][-1] == pytest.approx(-min(pull, 2.0), abs=1e-13)
+    assert sol["pin.angle"][-1] == pytest.approx(0.0, abs=1e-14)
+
+
+def test_a_body_that_is_welded_stands_on_four_feet_beside_one_that_slides():
+    m = zd.Mechanism("feet", gravity=(0, 0, -G), dimension=3)
+    for name, x in (("held", 0.0), ("free", 1.0)):
+        body = m.body(name, 1.0, np.diag([0.01, 0.01, 0.01]), at=(x, 0, 0.1))
+        for k, (i, j) in enumerate(((1, 1), (1, -1), (-1, -1), (-1, 1))):
+            m.contact(f"{name}{k}", body.point((0.1 * i, 0.1 * j, -0.1)), m.ground.plane((0, 0, 0), (0, 0, 1)), friction=FRICTION)
+    m.weld("weld", m.ground, m["held"], at=(0, 0, 0.1), active=True)
+    m.start({"free.velocity.x": 1.0})
+    sol = zd.simulate(m, 0.5, rtol=1e-8)
+    assert sol["free.position.x"][-1] == pytest.approx(1 + 1 / (2 * FRICTION * G), abs=1e-13)
+    assert sol["held.position.x"][-1] == 0.0
+
+
+def test_an_instant_of_a_change_costs_few_shorter_steps():
+    """Four where the gap is a parabola of time: at the zero that is expected, and next to it."""
+    m = zd.Mechanism("ball", gravity=(0, -G))
+    ball = m.particle("ball", 1.0, at=(0, 0.05))
+    m.contact("floor", ball, m.ground.line((0, 0), (1, 0)), restitution=1.0)
+    sol = zd.simulate(m, 5.0, step=0.01)
+    assert len(sol.impacts) == 25
+    assert sol.stats["output_steps"] <= 6 * len(sol.impacts)
