@@ -28,7 +28,7 @@ double zd_case_total_bound(const zd_case *it, int i)
 {
     double sum = slip_bound(it, i, 0);
     for (int k = i + 1; k < it->of->rows; k++)
-        if (it->of->tie[k] == i && it->state[k] == ZD_CLOSED) sum += it->of->factor[k] * slip_bound(it, k, 0);
+        if (it->of->tie[k] == i && it->state[k] == ZD_CLOSED) sum += fabs(it->of->factor[k]) * slip_bound(it, k, 0);
     return sum;
 }
 

@@ -17,16 +17,6 @@ int zd_margin_reads_accelerations(const zd_phase_system *self, int index)
     return self->full->group[index].kind != ZD_TWO_SIDED && self->state[index] == ZD_CLOSED;
 }
 
-/* Bound of static friction of a group, with those of the groups in whose place it sticks. */
-static double find_total_bound(const zd_phase_system *self, int index, const double *lambda)
-{
-    double total = zd_friction_bound(self->full, index, 0, lambda);
-    for (int g = 0; g < self->full->groups; g++)
-        if (self->full->group[g].kind == ZD_FRICTION && self->state[g] == ZD_IDLE && self->tie[g] == index)
-            total += self->tie_factor[g] * zd_friction_bound(self->full, g, 0, lambda);
-    return total;
-}
-
 /* Friction in two directions of a normal group; -1: none. */
 static int find_friction(const zd_phase_system *self, int normal)
 {
@@ -144,7 +134,7 @@ static double find_normal_margin(const zd_phase_system *self, int index, const d
 static double find_sticking_margin(const zd_phase_system *self, int index, const double *lambda)
 {
     const zd_group *group = self->full->group + index;
-    if (group->rows == 1) return find_total_bound(self, index, lambda) - fabs(lambda[group->first]);
+    if (group->rows == 1) return zd_friction_room(self, index, lambda);
     const double bound = zd_friction_bound(self->full, index, 0, lambda);
     if (!self->is_indeterminate) return bound - zd_hypotenuse(lambda[group->first], lambda[group->first + 1]);
     return zd_phase_part_forces(self, index, lambda)->forces.margin;

@@ -253,6 +253,7 @@ void zd_phase_expand(const zd_phase_system *self, double t, const double *p, con
         find_direction(self, self->scratch, it->group, v, e);
         for (int i = 0; i < group->rows; i++) all[group->first + i] = status ? NAN : -force_of(self, it, u) * e[i];
     }
+    if (self->has_ties) zd_friction_distribute(self, all);
 }
 
 static int own_scratch(const zd_system *full) { return full->measures ? full->measures->scratch : 0; }

@@ -70,8 +70,9 @@ struct zd_phase_system {
     double *scratch;        /* memory of zd_phase_evaluate() */
     zd_known_terms *known;  /* the terms in it */
     double *lambda;         /* (full m,): multipliers of all rows, from zd_point_multipliers() */
-    int *tie;               /* (groups,) of idle friction: the group that sticks in its place; -1: none */
-    double *tie_factor;     /* (groups,) by which its bound counts there */
+    int *tie;               /* (groups,) of idle friction: the parallel group that sticks in its place; -1: none */
+    double *tie_factor;     /* (groups,) length of its row in units of that one, negative if it is opposite */
+    int has_ties;           /* true if there is any */
     double *bias;           /* (groups,): added to each margin, which rounding may make negative when the phase begins */
     zd_switches switches;
     zd_operations operations;
@@ -124,6 +125,10 @@ static inline int zd_first_load(const zd_system *full, const zd_group *group)
 }
 /* Load that bounds friction, from the multipliers (loads,) of its rows or of the normal row; 1 for a fixed bound. */
 double zd_friction_load(const zd_system *full, const zd_group *group, const double *lambda);
+/* Bounds of static friction minus the forces, of a group and of those in whose place it sticks. */
+double zd_friction_room(const zd_phase_system *self, int group, const double *lambda);
+/* Multipliers (full m,) of parallel friction that sticks <- shares of its force in proportion to the bounds. */
+void zd_friction_distribute(const zd_phase_system *self, double *lambda);
 /* Margin of a group at a state, whose accelerations and multipliers are those of the point: positive while its phase lasts. It is the gap of
  * an open row, the force N of a closed one, the bound of static friction minus its force, and the slip speed; and how far the coordinate of a
  * bounded shape is from the ends of its range. */

@@ -146,7 +146,7 @@ static void find_parallel(zd_contact_problem *self)
         for (int k = 0; k < i && self->tie[i] < 0; k++) {
             const int are_friction = self->row[i].normal >= 0 && self->row[k].normal >= 0 && !self->row[i].pair && !self->row[k].pair;
             if (are_friction && self->tie[k] < 0 && are_parallel(self, i, k))
-                self->tie[i] = k, self->factor[i] = fabs(self->W[i * n + k] / self->W[k * n + k]);
+                self->tie[i] = k, self->factor[i] = self->W[i * n + k] / self->W[k * n + k];
         }
     }
 }

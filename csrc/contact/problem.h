@@ -23,7 +23,7 @@ typedef struct zd_contact_problem {
     int opens;              /* true if a row has just opened: of equal solutions, the one with most rows open is returned */
     signed char *state;     /* (rows,) result, as of groups */
     int *tie;               /* (rows,) result: an earlier row of friction that is parallel; -1: none */
-    double *factor;         /* (rows,) result: length of such a row in units of that one */
+    double *factor;         /* (rows,) result: length of such a row in units of that one, negative if it is opposite */
     double *z, *w;          /* (rows,) result */
     double *direction;      /* (rows,) of pairs, unit vectors of slip: given ones or first estimates, 0 0: none; and the result */
     int free_forces;        /* result: number of unknowns of contacts that stick that are not determined */

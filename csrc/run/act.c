@@ -54,8 +54,7 @@ int zd_run_act(zd_run *run)
         if (!watch->acts[action->event]) continue;
         if (action->input <= ZD_SWITCHES) {
             const int status = zd_run_switch(run, ZD_SWITCHES - action->input, action->value != 0 ? ZD_JOINED_HERE : ZD_RELEASED);
-            if (status) return status;
-            continue;
+            return status ? status : ZD_PAUSED;     /* so that the caller sees each of several changes */
         }
         if (action->input == ZD_CHANGES_PHASE) {
             watch->next_action = events->actions;

@@ -167,24 +167,32 @@ static int find_next(zd_contacts *it)
     if (!status && it->normals) status = close_gaps(it);
     if (!status && it->normals) status = zd_contacts_find_rows(it);
     if (!status) status = bring_to_rest(it);
-    zd_phase *phase = NULL;
     for (int k = 0; k < it->count; k++) it->next[it->group[k]] = it->state[k];
-    if (!status) phase = zd_phases_find(it->phases, it->next);
-    if (!status && !phase) status = ZD_NO_MEMORY;
-    if (!status) phase->of->is_indeterminate = it->free_forces > 0;
-    for (int k = 0; k < it->count && !status; k++) {
-        phase->of->tie[it->group[k]] = it->tie[k] < 0 ? -1 : it->group[it->tie[k]];
-        phase->of->tie_factor[it->group[k]] = it->factor[k];
-        if (it->row[k].pair) phase->of->direction[2 * it->group[k] + it->component[k]] = it->direction[k];
-    }
     return status;
+}
+
+/* Enters the next phase, and passes on to it what its state does not say. */
+static int enter(const zd_contacts *it)
+{
+    const int status = zd_phase_enter(it->run, it->next, 1);
+    zd_phase_system *of = it->phases->present->of;
+    if (status) return status;
+    of->is_indeterminate = it->free_forces > 0;
+    of->has_ties = 0;
+    for (int k = 0; k < it->count; k++) {
+        of->tie[it->group[k]] = it->tie[k] < 0 ? -1 : it->group[it->tie[k]];
+        of->tie_factor[it->group[k]] = it->factor[k];
+        of->has_ties |= it->tie[k] >= 0;
+        if (it->row[k].pair) of->direction[2 * it->group[k] + it->component[k]] = it->direction[k];
+    }
+    return zd_phase_enter(it->run, it->next, 0);
 }
 
 /* Friction whose loads are known only in the new phase: it slides if it exceeds its bound there. */
 static int enter_next(zd_contacts *it)
 {
     zd_run *run = it->run;
-    int status = zd_phase_enter(run, it->next, 0);
+    int status = enter(it);
     for (int k = it->normals; k < it->count && !status; k++) {
         const int g = it->group[k];
         double margin;
@@ -194,7 +202,7 @@ static int enter_next(zd_contacts *it)
         status = zd_phase_margin(of, run->motion.point, g, it->phases->at.t, it->phases->at.p, it->phases->at.v, &margin);
         if (status || margin >= 0) continue;
         it->next[g] = zd_point_multipliers(run->motion.point)[zd_candidate_group(it, k)->first] > 0 ? ZD_SLIDES_FORWARD : ZD_SLIDES_BACKWARD;
-        status = zd_phase_enter(run, it->next, 0);
+        status = enter(it);
     }
     return status;
 }

@@ -7,6 +7,8 @@
 #include <math.h>
 #include <string.h>
 
+static const double CUT = 1e-9;     /* smallest share of a step that is left after an event */
+
 static size_t count_speeds(const zd_inputs *inputs)
 {
     size_t count = 0;
@@ -185,11 +187,22 @@ static int speeds_have_changed(const zd_run *run)
     return 0;
 }
 
+/* True if speeds follow inputs beyond this time, in a fixed step that an event has cut. */
+static int have_speeds_to_follow(const zd_run *run)
+{
+    const zd_inputs *inputs = run->settings.inputs;
+    const double h = run->settings.step;
+    for (const zd_input_slot *place = inputs->place; place < inputs->place + inputs->places; place++)
+        if (is_followed(place) && run->stepper.t < place->place[2] + (1 - CUT) * h) return 1;
+    return 0;
+}
+
 /* Writes what is new at the start of a step, and makes the jump of speeds, if any. */
 static int begin(zd_run *run)
 {
     const zd_inputs *inputs = run->settings.inputs;
     zd_held_inputs *held = &run->held;
+    if (!held->is_new && have_speeds_to_follow(run)) return ZD_DONE;
     const int jumps = inputs->jumps && held->is_new && speeds_have_changed(run);
     int status = jumps ? zd_jump_begin(run) : ZD_DONE;
     if (status) return status;

@@ -68,3 +68,51 @@ def test_an_instant_of_a_change_costs_few_shorter_steps():
     sol = zd.simulate(m, 5.0, step=0.01)
     assert len(sol.impacts) == 25
     assert sol.stats["output_steps"] <= 6 * len(sol.impacts)
+
+
+@pytest.mark.parametrize("count", [2, 3])
+@pytest.mark.parametrize("coordinates", ["joint", "absolute"])
+def test_joints_that_stick_together_bear_a_force_within_their_bounds(coordinates, count):
+    m = zd.Mechanism("sliders", gravity=(0, -G))
+    block = m.body("block", 1.0, 0.1)
+    bounds = np.arange(1.0, count + 1)
+    for k, bound in enumerate(bounds):
+        m.prismatic(f"s{k}", m.ground, block, at=(0, 0), axis=(1, 0) if k % 2 else (-1, 0), friction_force=float(bound))
+    pull = 0.95 * bounds.sum()
+    m.force("pull", block.point((0, 0)), value=pull, along=(1, 0))
+    sol = zd.simulate(m.system(coordinates), 0.1, step=0.01)
+    assert [sol[f"s{k}.force.x"][-1] for k in range(count)] == pytest.approx(-0.95 * bounds, rel=1e-12)
+    assert sol["block.position.x"][-1] == pytest.approx(0.0, abs=1e-15)
+
+
+@pytest.mark.parametrize("options", [{"rtol": 1e-10}, {"step": 0.01}])
+def test_an_impact_that_follows_an_action_at_its_instant_is_listed(options):
+    """A rod is released from its pin as its end strikes the floor: against one released a little earlier."""
+    impacts = []
+    for height in (-0.5, -0.4999999):
+        m = zd.Mechanism("rod", gravity=(0, -G))
+        rod = m.link("rod", (0, 0), (1, 0), mass=1.0)
+        m.revolute("pin", m.ground, rod.start, active=True)
+        m.contact("floor", rod.end, m.ground.line((0, -0.5), (1, -0.5)), restitution=0.5)
+        released = zd.Event("rod.end.position.y", value=height, direction=-1, then={"pin": False})
+        sol = zd.simulate(m, 0.4, events=[released], **options)
+        impacts.append(sol.impacts[0])
+        assert np.abs(sol.energy_violation).max() < 1e-6
+    assert list(impacts[0])[2:] == pytest.approx(list(impacts[1])[2:], rel=1e-6)    # the distance of the heights
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_a_speed_follows_its_input_through_a_change_of_phase(friction):
+    """Within a fixed step, as the block on a belt begins to slide."""
+    m = zd.Mechanism("belt", gravity=(0, -G))
+    belt = m.body("belt", 10.0, 1.0)
+    slide = m.prismatic("slide", m.ground, belt, at=(0, 0), axis=(1, 0))
+    m.motor("drive", slide, speed=0.0)
+    m.contact("on belt", m.particle("block", 2.0, at=(0, 0)), belt.line((0, 0), (1, 0)), friction=friction)
+    run = zd.Run(m, step=0.01, inputs=["drive.speed"], record=True)
+    run.step(5)
+    run["drive.speed"] = 1.0
+    run.step(5)
+    sol = run.solution()
+    assert sol[slide.displacement][-1] == pytest.approx(0.045, abs=1e-13)   # 1 m/s, half of it in the step of the ramp
+    assert np.abs(sol.energy_violation).max() < 1e-12

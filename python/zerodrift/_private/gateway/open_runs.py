@@ -66,7 +66,9 @@ class OpenRun(Run):
 
     def set_state(self, p: np.ndarray, v: np.ndarray) -> int:
         """Move to another state at this time; return the status."""
-        return lib.zd_run_set_state(self.c, doubles(p, self._core.nq), doubles(v, self._core.nv))
+        status = lib.zd_run_set_state(self.c, doubles(p, self._core.nq), doubles(v, self._core.nv))
+        self._note_changes()
+        return status
 
     def switch(self, group: int, how: str) -> int:
         """Release or join a group of constraints: "release", "join", or "here" to join it as it stands; return the status."""
