@@ -30,7 +30,8 @@ static int is_within(int index, int count)
 
 static int is_of_accelerations(const zd_argument *reading, const zd_measures *measures)
 {
-    return reading->what == ZD_READS_MEASURE && measures->measure[reading->index].depends == ZD_OF_ACCELERATIONS;
+    return reading->what == ZD_READS_MULTIPLIER
+        || (reading->what == ZD_READS_MEASURE && measures->measure[reading->index].depends == ZD_OF_ACCELERATIONS);
 }
 
 int zd_acts(const zd_events *events, int event)
@@ -56,6 +57,7 @@ static int can_be_read(const zd_argument *reading, const zd_system *run, const z
     switch (reading->what) {
     case ZD_READS_P: return is_within(reading->index, run->nq);
     case ZD_READS_V: return is_within(reading->index, run->nv);
+    case ZD_READS_MULTIPLIER: return is_within(reading->index, zd_constraints(run));
     case ZD_READS_MEASURE:
         return measures && is_within(reading->index, measures->count)
                && is_within(reading->component, measures->measure[reading->index].size);
@@ -84,6 +86,7 @@ static int read(const zd_reader *self, const void *data, const zd_argument *read
     case ZD_READS_P: *x = p[reading->index]; break;
     case ZD_READS_V: *x = v[reading->index]; break;
     case ZD_READS_NUMBER: *x = reading->number; break;
+    case ZD_READS_MULTIPLIER: *x = zd_point_multipliers(self->point)[reading->index]; break;
     case ZD_READS_GROUP: return zd_phase_margin(self->point->phase, self->point, reading->index, t, p, v, x);
     case ZD_READS_MEASURE: {
         const double *vdot = self->point ? self->point->vdot : NULL, *lambda = self->point ? zd_point_multipliers(self->point) : NULL;

@@ -10,7 +10,8 @@
 /* Source of an argument of an event function: a quantity of the motion, or a constant. */
 enum zd_source {
     ZD_READS_TIME, ZD_READS_P, ZD_READS_V, ZD_READS_MEASURE, ZD_READS_NUMBER,
-    ZD_READS_GROUP          /* margin of a group of constraints that switch, while its phase lasts; of the core alone */
+    ZD_READS_GROUP,         /* margin of a group of constraints that switch, while its phase lasts; of the core alone */
+    ZD_READS_MULTIPLIER     /* multiplier of a constraint; of one that is not active, 0 */
 };
 
 typedef struct zd_argument {

@@ -61,6 +61,34 @@ def test_copies_equilibria_and_ensembles(ball):
     assert runs[0].impacts["t"][0] == pytest.approx(np.sqrt(2 / 5.0))
 
 
+def pressed(kind):
+    """A body on a floor, pressed with 10 N/s and pulled with 3 N/s."""
+    if kind is symbolic:
+        x, y, vx, vy, t = sp.symbols("x y vx vy t")
+        return zd.symbolic([x, y], speeds=[vx, vy], kinetic=vx**2 + vy**2, potential=2 * G * y, p0=[0, 0], v0=[0, 0],
+                           force=[3 * t, -10 * t], one_sided={"floor": zd.OneSided(y, slip=vx, friction=(0.4, 0.3))})
+    return zd.System(["x", "y"], mass=2 * np.eye(2), force=lambda t: np.array([3 * t, -2 * G - 10 * t]), p0=[0, 0],
+                     one_sided={"floor": zd.OneSided(lambda p: p[1], slip=lambda: np.array([1.0, 0.0]), friction=(0.4, 0.3))})
+
+
+@pytest.mark.parametrize("settings", [FINE, {"step": 0.01}], ids=str)
+@pytest.mark.parametrize("kind", [pytest.param(symbolic, marks=needs_compiler), numeric])
+def test_events_read_reactions(kind, settings):
+    """By name, in expressions and in functions: 2 g + 10 t reaches 25 N, and 3 t reaches 1 N."""
+    events = [zd.Event("floor", value=-25.0), zd.Event(sp.Symbol("floor") + 25), zd.Event(lambda n: n + 25, of={"n": "floor"}),
+              zd.Event("floor.slip", value=1.0)]
+    sol = zd.simulate(pressed(kind), 1.0, events=events, **settings)
+    for times, expected in zip(sol.t_events, [*3 * [0.538], 1 / 3], strict=True):
+        assert times == pytest.approx([expected], abs=1e-13)
+
+
+def test_an_event_finds_the_force_that_a_landing_brings(ball):
+    """It jumps from 0 to its impulse, and after the last bounce to 2 g."""
+    sol = zd.simulate(ball, 2.0, step=0.01, events=[zd.Event("floor", value=-10.0)])
+    lands = next(phase.t0 for phase in sol.phases if phase.state["floor"] != "open")
+    assert sol.t_events[0] == pytest.approx([lands], abs=1e-12)
+
+
 @needs_compiler
 def test_a_symbolic_system_is_pickled_with_its_groups():
     one = symbolic()

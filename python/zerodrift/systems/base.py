@@ -265,6 +265,8 @@ class BaseSystem(Defaults):
         if name in coordinates:
             return Reading(known_events.COORDINATE, coordinates.index(name))
         if name not in velocities:
+            if is_dynamic and (columns := [column for group, column in self._columns_of.get(name, ()) if group == 2]):
+                return Reading(known_events.MULTIPLIER, columns[0])
             known = checks.closest(name, [*coordinates, *velocities, *self._watching.known])
             raise WrongValue(f"{what} must be a measure, a coordinate or a velocity of {self.name}, not {name!r}; {known}",
                              "unknown-choice")

@@ -8,14 +8,14 @@ from typing import Any, NamedTuple
 from ..core import ffi, lib
 
 TIME, COORDINATE, VELOCITY = lib.ZD_READS_TIME, lib.ZD_READS_P, lib.ZD_READS_V
-MEASURE, NUMBER = lib.ZD_READS_MEASURE, lib.ZD_READS_NUMBER
+MEASURE, NUMBER, MULTIPLIER = lib.ZD_READS_MEASURE, lib.ZD_READS_NUMBER, lib.ZD_READS_MULTIPLIER
 
 
 class Reading(NamedTuple):
     """Quantity that an event reads: a number of the motion, or a constant."""
 
     what: int                   # one of the above
-    entry: int = 0              # of p, of v, or of a measure
+    entry: int = 0              # of p, of v, of a measure, or of a constraint
     component: int = 0          # of the measure
     number: float = 0.0         # a NUMBER's
 
