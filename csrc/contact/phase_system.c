@@ -19,6 +19,7 @@
 
 static const double FAST_SLIP = 4;          /* slip, in units of the slow one, that has left the start of sliding */
 static const double REVERSED_COSINE = 1e-6; /* largest cosine of two directions of slip that have reversed */
+enum { MAX_SLOW_STEPS = 30 };               /* steps with a slow slip after which it counts as reversed: it may then stick */
 
 /* ---- memory of the full system's constraints ---- */
 
@@ -112,6 +113,8 @@ int zd_phase_update_directions(const zd_phase_system *self, int is_start, double
         double s[2], *d = self->direction + 2 * g;
         zd_phase_slip(self, g, v, s);
         const double size = zd_hypotenuse(s[0], s[1]);
+        self->slow_steps[g] = is_start || size > self->slow_slip ? 0 : self->slow_steps[g] + 1;
+        if (self->slow_steps[g] > MAX_SLOW_STEPS) self->bias[g] -= FAST_SLIP * self->slow_slip;
         if (size <= self->slow_slip || (!is_start && d[0] * s[0] + d[1] * s[1] <= REVERSED_COSINE * size)) continue;
         self->slip_speed[g] = size;
         if (!is_start && size > FAST_SLIP * self->slow_slip) self->bias[g] = 0;

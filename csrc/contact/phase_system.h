@@ -59,6 +59,7 @@ struct zd_phase_system {
     double slow_slip;       /* m/s: slip velocity in two directions below which it does not turn */
     double *direction;      /* (groups, 2): unit vectors of slip in two directions at the start of a step */
     double *slip_speed;     /* (groups,) m/s: its magnitude there */
+    int *slow_steps;        /* (groups,) number of steps in which it has been slow */
     zd_sliding *sliding;    /* (groups,) */
     zd_structure structure;
     zd_measures measures;   /* measures of the full system, then the multiplier of each row of the full system */

@@ -158,7 +158,8 @@ int zd_problem_solve(zd_contact_problem *self)
     for (int i = 0; i < n; i++) {
         const int states = self->row[i].normal < 0 ? 2 : !self->row[i].pair ? 3 : self->row[i].pair == 1 ? 2 : 1;
         cases *= self->row[i].normal < 0 || self->row[i].slides == ZD_OPEN ? states : 1;
-        size = fmax(size, fabs(self->b[i]));
+        const int normal = self->row[i].normal < 0 ? i : self->row[i].normal - 1;
+        if (normal < 0 || self->row[normal].slides == ZD_OPEN) size = fmax(size, fabs(self->b[i]));     /* others take no part */
     }
     if (n > ZD_MAX_CANDIDATES || cases > MAX_CASES) return -1;
     signed char state[ZD_MAX_CANDIDATES];

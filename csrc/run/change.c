@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "../linalg/roots.h"
+#include "../linalg/small.h"
 #include "../paths/path.h"
 #include "../point/point.h"
 #include "../step_limits.h"
@@ -18,6 +19,8 @@
 
 static const double STILL = 1e-3;           /* velocity that is rounding, relative to the rest speed */
 static const double GAIN = 1e-9;            /* energy that an impact may gain by rounding, relative to what it exchanges */
+static const double EXCESS_SHARE = 1e-9;    /* force beyond its bound, relative to the largest one, that is rounding */
+static const double EXCESS = 2e-15;         /* the same where there are none, in characteristic lengths */
 enum { MAX_CHANGES = 30 };                  /* changes of phase at one instant */
 
 /* ---- impacts ---- */
@@ -188,22 +191,63 @@ static int enter(const zd_contacts *it)
     return zd_phase_enter(it->run, it->next, 0);
 }
 
-/* Friction whose loads are known only in the new phase: it slides if it exceeds its bound there. */
+static int refuse_laws(const zd_contacts *it, int k)
+{
+    snprintf(it->run->outcome.message, ZD_MESSAGE, "forces that laws read must leave '%s' in one state: in each that was tried, they lead to "
+             "another", zd_candidate_group(it, k)->name);
+    return ZD_SEVERAL_MOTIONS;
+}
+
+/* Friction that exceeds its bound in the present phase slides against its force, with that in whose place it sticks, and a contact that is
+ * pulled opens; 0: it is within its bounds. */
+static int correct_state(zd_contacts *it, int k)
+{
+    const zd_phases *phases = it->phases;
+    const double *lambda = zd_point_multipliers(it->run->motion.point), *f = lambda + zd_candidate_group(it, k)->first;
+    const double rounding = EXCESS_SHARE * zd_max_abs(zd_constraints(phases->full), lambda) + EXCESS * phases->length;
+    signed char *next = it->next;
+    if (next[it->group[k]] != ZD_CLOSED || !(phases->present->of->bias[it->group[k]] > rounding)) return 0;
+    if (k < it->normals) next[it->group[k]] = ZD_OPEN;
+    if (it->row[k].pair) {
+        const double size = zd_hypotenuse(f[0], f[1]);
+        for (int i = 0; i < 2; i++) it->direction[k + i] = f[i] / size;
+        next[it->group[k]] = ZD_SLIDES_FORWARD;
+    }
+    for (int i = it->normals; i < it->count; i++)
+        if (it->row[i].normal == k + 1) next[it->group[i]] = ZD_OPEN;
+        else if (!it->row[k].pair && k >= it->normals && (i == k || it->tie[i] == k)) {
+            next[it->group[i]] = (f[0] > 0) == (i == k || it->factor[i] > 0) ? ZD_SLIDES_FORWARD : ZD_SLIDES_BACKWARD;
+            it->tie[i] = -1;
+        }
+    return 1;
+}
+
+/* True if friction that slides from rest in the present phase is accelerated backward there. */
+static int is_driven_back(const zd_contacts *it, int k)
+{
+    const zd_phase_system *of = it->phases->present->of;
+    const int nv = of->full->nv, first = k - (it->row[k].pair == 2);
+    double along = 0, size = 0;
+    if (k < it->normals || !zd_slides(it->next[it->group[k]])) return 0;
+    for (int i = first; i <= first + (it->row[k].pair != 0); i++) {
+        const double a = zd_dot(nv, it->g + (size_t)i * nv, it->run->motion.point->vdot) - zd_phase_xi(of)[zd_candidate_row(it, i)];
+        if (fabs(it->w[i]) > STILL * zd_rest_speed(it, i)) return 0;
+        along += a * (it->row[k].pair ? it->direction[i] : zd_slip_sign(it->next[it->group[k]]));
+        size = fmax(size, fabs(it->b[i]));
+    }
+    return along < -EXCESS_SHARE * size;
+}
+
+/* Forces that read loads and reactions are known only in the new phase, so that its states may change there. */
 static int enter_next(zd_contacts *it)
 {
-    zd_run *run = it->run;
+    const int reads = it->phases->full->reading != NULL;
     int status = enter(it);
-    for (int k = it->normals; k < it->count && !status; k++) {
-        const int g = it->group[k];
-        double margin;
-        if (!zd_candidate_group(it, k)->loads || it->next[g] != ZD_CLOSED) continue;
-        zd_phase_system *of = it->phases->present->of;
-        of->bias[g] = 0;
-        status = zd_phase_margin(of, run->motion.point, g, it->phases->at.t, it->phases->at.p, it->phases->at.v, &margin);
-        if (status || margin >= 0) continue;
-        it->next[g] = zd_point_multipliers(run->motion.point)[zd_candidate_group(it, k)->first] > 0 ? ZD_SLIDES_FORWARD : ZD_SLIDES_BACKWARD;
-        status = enter(it);
-    }
+    for (int k = 0; k < it->count && !status; k++)
+        if ((reads || zd_candidate_group(it, k)->loads) && correct_state(it, k)) status = enter(it);
+    if (!status && reads) status = zd_phase_evaluate(it->phases->present->of, ZD_XI, it->phases->at.t, it->phases->at.p, it->phases->at.v);
+    for (int k = 0; k < it->count && !status && reads; k++)
+        if (is_driven_back(it, k) || correct_state(it, k)) status = refuse_laws(it, k);
     return status;
 }
 
@@ -260,9 +304,11 @@ static int change(zd_contacts *it, int joining, int is_start)
     return status;
 }
 
-static int is_too_often(zd_phases *phases, double t)
+/* True where the phase changes again and again at one instant: to the rounding of the time, or near 0 of what is left of the run. */
+static int is_too_often(zd_phases *phases, const zd_run *run)
 {
-    phases->changes = fabs(t - phases->t_changes) <= ZD_TIME_RESOLUTION * fabs(t) ? phases->changes + 1 : 1;
+    const double t = run->stepper.t, size = fmax(fabs(t), fmin(1, run->goal.end - run->settings.t0));
+    phases->changes = fabs(t - phases->t_changes) <= ZD_TIME_RESOLUTION * size ? phases->changes + 1 : 1;
     phases->t_changes = t;
     return phases->changes > MAX_CHANGES;
 }
@@ -271,7 +317,7 @@ int zd_phases_change(zd_run *run, const signed char *wanted, int is_start)
 {
     zd_phases *phases = run->phases;
     const zd_system *full = phases->full;
-    if (is_too_often(phases, run->stepper.t)) return ZD_CHATTERS;
+    if (is_too_often(phases, run)) return ZD_CHATTERS;
     zd_contacts *it = zd_allocate(sizeof *it + full->groups);
     if (!it) return ZD_NO_MEMORY;
     it->run = run, it->phases = phases, it->next = (signed char *)(it + 1);

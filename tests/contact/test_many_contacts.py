@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from contact.space_scenes import mechanism_of, scene_of
 
 G = 9.81
 FRICTION = 0.3
@@ -116,3 +117,36 @@ def test_a_speed_follows_its_input_through_a_change_of_phase(friction):
     sol = run.solution()
     assert sol[slide.displacement][-1] == pytest.approx(0.045, abs=1e-13)   # 1 m/s, half of it in the step of the ramp
     assert np.abs(sol.energy_violation).max() < 1e-12
+
+
+@pytest.mark.parametrize(("seed", "closed"), [(59, 4), (87, 2)])
+def test_bodies_in_space_come_to_rest_after_chatter(seed, closed):
+    """A plate on three feet with a ball on it, at one instant in free fall together; a rod between floor and wall."""
+    _, bodies, contacts = scene_of(seed)
+    sol = zd.simulate(mechanism_of(bodies, contacts), 0.5 if seed == 87 else 0.1, rtol=1e-9, max_steps=2000)
+    assert sum(word == "sticking" for word in sol.phases[-1].state.values()) == closed
+
+
+def pulled(law, coordinates="joint"):
+    """A block of 2 kg with another one on a pin, pulled along the floor by a force that reads the reaction of the pin."""
+    m = zd.Mechanism("pulled", gravity=(0, -G))
+    block, load = m.body("block", 2.0, 0.1, at=(0, 0)), m.body("load", 2.0, 0.1, at=(0, 0))
+    for k, x in enumerate((-0.1, 0.1)):
+        m.contact(f"foot{k}", block.point((x, 0)), m.ground.line((0, 0), (1, 0)), friction=0.2)
+    m.revolute("pin", block, load, at=(0, 0))
+    m.force("pull", block.point((0, 0)), along=(1, 0), value=law, of={"n": "pin.force.y"})
+    return m.system(coordinates)
+
+
+@pytest.mark.parametrize("coordinates", ["joint", "absolute"])
+def test_laws_that_read_reactions_decide_what_slides(coordinates):
+    """The pin bears 2 g once the feet are pressed: 0.3 of it holds within 0.2 * 4 g, 0.5 does not."""
+    sol = zd.simulate(pulled(lambda n: 0.3 * n, coordinates), 1.0, step=0.01)
+    assert sol["block.velocity.x"][-1] == pytest.approx(0, abs=1e-15)
+    sol = zd.simulate(pulled(lambda n: 0.5 * n, coordinates), 1.0, step=0.01)
+    assert sol["block.velocity.x"][-1] == pytest.approx((0.5 * 2 - 0.2 * 4) * G / 4, rel=1e-12)
+
+
+def test_laws_that_lead_from_each_state_to_another_are_named():
+    with pytest.raises(zd.NoUniqueMotion, match="in one state"):
+        zd.simulate(pulled(lambda n: 9.0 - 0.3 * n), 1.0, step=0.01)
