@@ -150,3 +150,16 @@ def test_laws_that_read_reactions_decide_what_slides(coordinates):
 def test_laws_that_lead_from_each_state_to_another_are_named():
     with pytest.raises(zd.NoUniqueMotion, match="in one state"):
         zd.simulate(pulled(lambda n: 9.0 - 0.3 * n), 1.0, step=0.01)
+
+
+@pytest.mark.parametrize("height", [0.0, 1.0])
+def test_laws_read_the_force_of_a_contact(height):
+    """A particle that is pulled with half the force by which it is pressed to the floor, from its landing on."""
+    m = zd.Mechanism("fed", gravity=(0, -G))
+    body = m.particle("body", 2.0, at=(0, height))
+    m.contact("floor", body, m.ground.line((0, 0), (1, 0)), friction=0.2)
+    m.force("pull", body, along=(1, 0), value=lambda n: 0.5 * n, of={"n": "floor.force.y"})
+    sol = zd.simulate(m, 1.0, step=0.01)
+    assert sol["body.velocity.x"][-1] == pytest.approx(0.3 * G * (1 - np.sqrt(2 * height / G)), rel=1e-12)
+    assert sol["pull.force"][-1] == pytest.approx(G)
+    assert np.abs(sol.energy_violation).max() < 1e-12

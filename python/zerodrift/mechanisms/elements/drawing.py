@@ -56,6 +56,9 @@ class Drawing(NamedTuple):
         if not switched:
             return self
         others = {element.name: element.unswitched for element in switched}
+        removed = {name for name, element in others.items() if element is None}
+        others |= {each.name: None for each in self.elements.values()       # forces, which move no start
+                   if any(name.partition(".")[0] in removed for law in each.laws.values() for name in law.reactions.values())}
         elements = {name: others.get(name, each) for name, each in self.elements.items()}
         return self._replace(elements={name: each for name, each in elements.items() if each is not None})
 
