@@ -28,8 +28,8 @@ void zd_case_estimate_directions(zd_case *self);
 int zd_case_normals_depend(const zd_case *self);
 /* z and w of the case, with its directions; 0: it has no solution. */
 int zd_case_solve(zd_case *self);
-/* True if pairs of rows that stick are within their bounds in some distribution of forces that are not determined: also of normal ones, if
- * no sliding depends on these. z <- such a distribution. */
+/* True if sticking friction in two directions is within its bounds in some distribution of the indeterminate forces, including normal forces
+ * unless sliding depends on them. z <- such a distribution. */
 int zd_case_pairs_stick(zd_case *self);
 int zd_case_has_pairs(const zd_case *self);
 int zd_case_has_sliding_pairs(const zd_case *self);

@@ -32,33 +32,13 @@ static double find_product(const zd_phase_system *self, int row, int other)
     return zd_row_times(&two, self->known->row);
 }
 
-/* True if the rows of two contacts share coordinates. */
-static int are_coupled(const zd_phase_system *self, int a, int b)
-{
-    const zd_group *group = self->full->group;
-    const int friction[] = {find_friction(self, a), find_friction(self, b)}, normal[] = {a, b};
-    int row[2][3], count[2] = {1, 1};
-    for (int i = 0; i < 2; i++) {
-        row[i][0] = group[normal[i]].first;
-        for (int k = 0; friction[i] >= 0 && k < 2; k++) row[i][count[i]++] = group[friction[i]].first + k;
-    }
-    for (int i = 0; i < count[0]; i++)
-        for (int k = 0; k < count[1]; k++)
-            if (find_product(self, row[0][i], row[1][k]) != 0) return 1;
-    return 0;
-}
-
-/* Closed contacts that act on each other: the first one, and those that are coupled with it, directly or through others. */
+/* Closed one-sided groups of the same part as the first one. */
 static int list_part(const zd_phase_system *self, int first, int *normal)
 {
-    int count = 1;
-    normal[0] = first;
-    for (int i = 0; i < count; i++)
-        for (int g = 0; g < self->full->groups && count < ZD_MAX_DISTRIBUTED; g++) {
-            int is_new = self->full->group[g].kind == ZD_ONE_SIDED && self->state[g] == ZD_CLOSED;
-            for (int k = 0; k < count; k++) is_new &= normal[k] != g;
-            if (is_new && are_coupled(self, normal[i], g)) normal[count++] = g;
-        }
+    int count = 0;
+    for (int g = 0; g < self->full->groups && count < ZD_MAX_DISTRIBUTED; g++)
+        if (self->full->group[g].kind == ZD_ONE_SIDED && self->state[g] == ZD_CLOSED && self->part[g] == self->part[first])
+            normal[count++] = g;
     return count;
 }
 

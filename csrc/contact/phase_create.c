@@ -128,6 +128,7 @@ zd_phase_system *zd_phase_system_create(zd_arena *arena, const zd_system *full, 
     self->is_switched = zd_arena_ints(arena, m);
     self->value = zd_arena_doubles(arena, m);
     self->keeps_value = zd_arena_ints(arena, m);
+    self->part = zd_arena_ints(arena, groups);
     self->tie = zd_arena_ints(arena, groups);
     self->tie_factor = zd_arena_doubles(arena, groups);
     self->bias = zd_arena_doubles(arena, groups);

@@ -27,7 +27,7 @@ typedef struct zd_sliding {     /* friction of a group that slides */
 } zd_sliding;
 
 /* Terms of the full system's constraints that are those of a state. */
-typedef struct zd_part_forces {     /* contacts that act on each other, whose forces may not be determined */
+typedef struct zd_part_forces {     /* coupled contacts, whose forces may not be determined */
     zd_distribution forces;
     int normal[ZD_MAX_DISTRIBUTED], friction[ZD_MAX_DISTRIBUTED];       /* groups of its contacts; -1: no friction that sticks */
 } zd_part_forces;
@@ -71,6 +71,7 @@ struct zd_phase_system {
     double *scratch;        /* memory of zd_phase_evaluate() */
     zd_known_terms *known;  /* the terms in it */
     double *lambda;         /* (full m,): multipliers of all rows, from zd_point_multipliers() */
+    int *part;              /* (groups,) of contacts: those with the same number are coupled */
     int *tie;               /* (groups,) of idle friction: the parallel group that sticks in its place; -1: none */
     double *tie_factor;     /* (groups,) length of its row in units of that one, negative if it is opposite */
     int has_ties;           /* true if there is any */
@@ -114,7 +115,7 @@ double zd_phase_gap(const zd_phase_system *self, int group);
 double zd_phase_range_margin(const zd_phase_system *self, int group);
 /* Number of measures of the full system. */
 static inline int zd_own_measures(const zd_system *full) { return full->measures ? full->measures->count : 0; }
-/* Forces of the contacts that are closed and stick and act on that of a group, in the distribution with the largest margin; C of the state
+/* Forces of the closed and sticking contacts coupled with that of a group, in the distribution with the largest margin; C of the state
  * must be known. While friction in two directions slides among them, normal forces are given. */
 const zd_part_forces *zd_phase_part_forces(const zd_phase_system *self, int group, const double *lambda);
 /* Sets the functions of a phase whose rows are known. */

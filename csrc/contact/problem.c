@@ -65,7 +65,7 @@ static int is_another(const zd_case *it)
     return differs && !slides_more;
 }
 
-/* True if two rows have one direction; a row that other constraints hold has none. */
+/* True if two candidates are parallel; a blocked one is parallel to none. */
 static int are_parallel(const zd_contact_problem *of, int i, int k)
 {
     const double W = of->W[i * of->rows + k], product = of->W[i * of->rows + i] * of->W[k * of->rows + k];

@@ -11,16 +11,12 @@
 #include <string.h>
 
 #include "../linalg/roots.h"
-#include "../linalg/small.h"
 #include "../paths/path.h"
 #include "../point/point.h"
 #include "../step_limits.h"
 #include "contacts.h"
 
-static const double STILL = 1e-3;           /* velocity that is rounding, relative to the rest speed */
 static const double GAIN = 1e-9;            /* energy that an impact may gain by rounding, relative to what it exchanges */
-static const double EXCESS_SHARE = 1e-9;    /* force beyond its bound, relative to the largest one, that is rounding */
-static const double EXCESS = 2e-15;         /* the same where there are none, in characteristic lengths */
 enum { MAX_CHANGES = 30 };                  /* changes of phase at one instant */
 
 /* ---- impacts ---- */
@@ -38,7 +34,7 @@ static int make_impact(zd_contacts *it)
     const int rows = find_impulsive(it);
     double exchanged = 0, gained = 0;
     int is_any = 0;
-    for (int k = 0; k < it->normals; k++) is_any |= it->w[k] < -STILL * zd_rest_speed(it, k);
+    for (int k = 0; k < it->normals; k++) is_any |= it->w[k] < -ZD_STILL * zd_rest_speed(it, k);
     if (!is_any) return ZD_DONE;
     zd_candidate given[ZD_MAX_TOUCHING];
     double direction[ZD_MAX_TOUCHING];
@@ -81,7 +77,7 @@ static void classify_friction(zd_contacts *it)
     for (int k = it->normals; k < it->count; k++) {
         const int i = k - (it->row[k].pair == 2), is_pair = it->row[k].pair != 0;      /* its first row */
         const double speed = is_pair ? zd_hypotenuse(it->w[i], it->w[i + 1]) : fabs(it->w[k]);
-        const int is_still = speed <= fmax(STILL * zd_rest_speed(it, k), it->slip_error[k]);
+        const int is_still = speed <= fmax(ZD_STILL * zd_rest_speed(it, k), it->slip_error[k]);
         it->row[k].slides = is_still ? it->ends[k] : is_pair || it->w[k] > 0 ? ZD_SLIDES_FORWARD : ZD_SLIDES_BACKWARD;
         it->row[k].is_unknown = (signed char)(is_pair && is_still && it->ends[k] != ZD_OPEN);
         if (is_pair && !is_still) it->direction[k] = it->w[k] / speed;
@@ -141,7 +137,7 @@ static void add_omitted_time(zd_contacts *it)
         double prevented = 0;
         for (int j = 0; j < it->count; j++)
             if (j == k || it->row[j].normal == k + 1) prevented += it->W[k * it->count + j] * it->z[j];
-        if (group->kind == ZD_ONE_SIDED && it->state[k] == ZD_CLOSED && speed > STILL * zd_rest_speed(it, k) && prevented > 0)
+        if (group->kind == ZD_ONE_SIDED && it->state[k] == ZD_CLOSED && speed > ZD_STILL * zd_rest_speed(it, k) && prevented > 0)
             it->run->motion.statistics.omitted_bounce_time += 2 * speed / (prevented * (1 - group->restitution));
     }
 }
@@ -171,83 +167,6 @@ static int find_next(zd_contacts *it)
     if (!status && it->normals) status = zd_contacts_find_rows(it);
     if (!status) status = bring_to_rest(it);
     for (int k = 0; k < it->count; k++) it->next[it->group[k]] = it->state[k];
-    return status;
-}
-
-/* Enters the next phase, and passes on to it what its state does not say. */
-static int enter(const zd_contacts *it)
-{
-    const int status = zd_phase_enter(it->run, it->next, 1);
-    zd_phase_system *of = it->phases->present->of;
-    if (status) return status;
-    of->is_indeterminate = it->free_forces > 0;
-    of->has_ties = 0;
-    for (int k = 0; k < it->count; k++) {
-        of->tie[it->group[k]] = it->tie[k] < 0 ? -1 : it->group[it->tie[k]];
-        of->tie_factor[it->group[k]] = it->factor[k];
-        of->has_ties |= it->tie[k] >= 0;
-        if (it->row[k].pair) of->direction[2 * it->group[k] + it->component[k]] = it->direction[k];
-    }
-    return zd_phase_enter(it->run, it->next, 0);
-}
-
-static int refuse_laws(const zd_contacts *it, int k)
-{
-    snprintf(it->run->outcome.message, ZD_MESSAGE, "forces that laws read must leave '%s' in one state: in each that was tried, they lead to "
-             "another", zd_candidate_group(it, k)->name);
-    return ZD_SEVERAL_MOTIONS;
-}
-
-/* Friction that exceeds its bound in the present phase slides against its force, with that in whose place it sticks, and a contact that is
- * pulled opens; 0: it is within its bounds. */
-static int correct_state(zd_contacts *it, int k)
-{
-    const zd_phases *phases = it->phases;
-    const double *lambda = zd_point_multipliers(it->run->motion.point), *f = lambda + zd_candidate_group(it, k)->first;
-    const double rounding = EXCESS_SHARE * zd_max_abs(zd_constraints(phases->full), lambda) + EXCESS * phases->length;
-    signed char *next = it->next;
-    if (next[it->group[k]] != ZD_CLOSED || !(phases->present->of->bias[it->group[k]] > rounding)) return 0;
-    if (k < it->normals) next[it->group[k]] = ZD_OPEN;
-    if (it->row[k].pair) {
-        const double size = zd_hypotenuse(f[0], f[1]);
-        for (int i = 0; i < 2; i++) it->direction[k + i] = f[i] / size;
-        next[it->group[k]] = ZD_SLIDES_FORWARD;
-    }
-    for (int i = it->normals; i < it->count; i++)
-        if (it->row[i].normal == k + 1) next[it->group[i]] = ZD_OPEN;
-        else if (!it->row[k].pair && k >= it->normals && (i == k || it->tie[i] == k)) {
-            next[it->group[i]] = (f[0] > 0) == (i == k || it->factor[i] > 0) ? ZD_SLIDES_FORWARD : ZD_SLIDES_BACKWARD;
-            it->tie[i] = -1;
-        }
-    return 1;
-}
-
-/* True if friction that slides from rest in the present phase is accelerated backward there. */
-static int is_driven_back(const zd_contacts *it, int k)
-{
-    const zd_phase_system *of = it->phases->present->of;
-    const int nv = of->full->nv, first = k - (it->row[k].pair == 2);
-    double along = 0, size = 0;
-    if (k < it->normals || !zd_slides(it->next[it->group[k]])) return 0;
-    for (int i = first; i <= first + (it->row[k].pair != 0); i++) {
-        const double a = zd_dot(nv, it->g + (size_t)i * nv, it->run->motion.point->vdot) - zd_phase_xi(of)[zd_candidate_row(it, i)];
-        if (fabs(it->w[i]) > STILL * zd_rest_speed(it, i)) return 0;
-        along += a * (it->row[k].pair ? it->direction[i] : zd_slip_sign(it->next[it->group[k]]));
-        size = fmax(size, fabs(it->b[i]));
-    }
-    return along < -EXCESS_SHARE * size;
-}
-
-/* Forces that read loads and reactions are known only in the new phase, so that its states may change there. */
-static int enter_next(zd_contacts *it)
-{
-    const int reads = it->phases->full->reading != NULL;
-    int status = enter(it);
-    for (int k = 0; k < it->count && !status; k++)
-        if ((reads || zd_candidate_group(it, k)->loads) && correct_state(it, k)) status = enter(it);
-    if (!status && reads) status = zd_phase_evaluate(it->phases->present->of, ZD_XI, it->phases->at.t, it->phases->at.p, it->phases->at.v);
-    for (int k = 0; k < it->count && !status && reads; k++)
-        if (is_driven_back(it, k) || correct_state(it, k)) status = refuse_laws(it, k);
     return status;
 }
 
@@ -298,13 +217,13 @@ static int change(zd_contacts *it, int joining, int is_start)
     zd_contacts_find_velocities(it);
     status = make_impact(it);
     if (!status) status = find_next(it);
-    if (!status) status = enter_next(it);
+    if (!status) status = zd_contacts_enter(it);
     if (!status) status = find_kinetic(run, &after);
     phases->last.energy = it->is_changed ? after - before : 0;
     return status;
 }
 
-/* True where the phase changes again and again at one instant: to the rounding of the time, or near 0 of what is left of the run. */
+/* True after MAX_CHANGES changes of phase at one instant, to the rounding of the time; near t = 0 to that of the duration. */
 static int is_too_often(zd_phases *phases, const zd_run *run)
 {
     const double t = run->stepper.t, size = fmax(fabs(t), fmin(1, run->goal.end - run->settings.t0));

@@ -1,4 +1,4 @@
-/* Contacts act on each other where W couples them, and friction with its normal force: parts that do not are solved apart. */
+/* Contacts are coupled by entries of W, and friction with its normal force. Each part of coupled contacts is solved separately. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -26,17 +26,17 @@ void zd_contacts_find_parts(zd_contacts *it)
     for (int k = 0; k < it->count; k++) it->part[k] = -1;
     it->parts = 0;
     for (int first = 0; first < it->count; first++) {
-        if (it->part[first] >= 0 || it->is_held[first]) continue;
+        if (it->part[first] >= 0 || it->is_blocked[first]) continue;
         it->part[first] = it->parts;
         found[0] = first;
         for (int i = 0, count = 1; i < count; i++)
             for (int k = first; k < it->count; k++)
-                if (it->part[k] < 0 && !it->is_held[k] && are_coupled(it, found[i], k)) it->part[k] = it->parts, found[count++] = k;
+                if (it->part[k] < 0 && !it->is_blocked[k] && are_coupled(it, found[i], k)) it->part[k] = it->parts, found[count++] = k;
         it->parts++;
     }
 }
 
-/* Lists rows of a part; 0: they are too many. */
+/* Lists the candidates of a part among the first rows; 0: they are too many. */
 static int list(const zd_contacts *it, int index, int rows, part *to)
 {
     to->count = 0;
@@ -72,7 +72,7 @@ static int solve_part(zd_contacts *it, const part *of)
         row[i].normal = 0;
         for (int j = 0; j < i; j++)
             if (of->row[j] == it->row[k].normal - 1) row[i].normal = j + 1;
-        if (!row[i].normal) row[i].bound[0] = row[i].bound[1] = 0;      /* its normal row is held */
+        if (!row[i].normal) row[i].bound[0] = row[i].bound[1] = 0;      /* its normal row is blocked */
     }
     const int is_min_norm = zd_has_pairs(it->phases->full);
     zd_contact_problem problem = {n, row, W, b, is_min_norm, opens, state, tie, factor, z, w, direction, 0, 0, it->scratch};
@@ -96,7 +96,7 @@ int zd_contacts_solve(zd_contacts *it, int rows, const char *what)
         const int found = list(it, index, rows, &one) ? solve_part(it, &one) : -1;
         if (found == 1) continue;
         const char *how = found == -2 ? "the normal forces that bound sliding friction are not determined: contacts must be fewer"
-                        : found < 0 ? "too many contacts change at one instant: they must be fewer"
+                        : found < 0 ? "coupled contacts that change at one instant must be fewer"
                         : !found ? rows > it->normals ? "no solution exists, as in Painleve's paradox: friction must be smaller"
                                                       : "no solution exists: drives and joints must allow the bodies to stop"
                         : "several solutions exist, as in Painleve's paradox: friction must be smaller";

@@ -9,7 +9,7 @@
 #include "../linalg/roots.h"
 #include "../point/point.h"
 
-static const double HELD = 1e-11;      /* share of an impulse that is rounding where constraints cancel it */
+static const double CANCELLED_SHARE = 1e-11;      /* share of an impulse that is rounding where constraints cancel it */
 
 static int refuse_start(zd_contacts *it, const zd_group *group, double gap)
 {
@@ -102,7 +102,8 @@ static int add_candidate(zd_contacts *it, int g, int component, int normal, doub
 {
     const zd_group *group = it->phases->full->group + g;
     if (it->count == ZD_MAX_TOUCHING) {
-        snprintf(it->run->outcome.message, ZD_MESSAGE, "at most %d contacts and frictions may change at one instant", ZD_MAX_TOUCHING);
+        snprintf(it->run->outcome.message, ZD_MESSAGE, "contacts and frictions that change at one instant must be at most %d",
+                 ZD_MAX_TOUCHING);
         return ZD_SEVERAL_MOTIONS;
     }
     it->group[it->count] = g;
@@ -198,8 +199,8 @@ int zd_contacts_find_rows(zd_contacts *it)
     return status;
 }
 
-/* True if impulses of the constraints cancel one along row k to rounding, which so cannot move anything. `net`, `size` (nv,): scratch. */
-static int is_held(const zd_contacts *it, int k, double *net, double *size)
+/* True if constraint impulses cancel a unit impulse along candidate k to rounding. `net`, `size` (nv,): scratch memory. */
+static int is_blocked(const zd_contacts *it, int k, double *net, double *size)
 {
     const zd_phase_system *of = it->phases->present->of;
     const int nv = of->full->nv;
@@ -213,7 +214,7 @@ static int is_held(const zd_contacts *it, int k, double *net, double *size)
         }
     }
     for (int i = 0; i < nv; i++)
-        if (fabs(net[i]) > HELD * size[i]) return 0;
+        if (fabs(net[i]) > CANCELLED_SHARE * size[i]) return 0;
     return 1;
 }
 
@@ -227,8 +228,8 @@ int zd_contacts_find_answers(zd_contacts *it)
         zd_motion_solve(motion, it->g + (size_t)k * nv, it->zero, it->x + (size_t)k * nv, motion->point->lambda);
         motion->statistics.solves++;
         zd_rank_find_multipliers(motion->point);
-        it->is_held[k] = is_held(it, k, it->net, it->net + nv);
-        if (it->row[k].pair == 2) it->is_held[k] = it->is_held[k - 1] = it->is_held[k] && it->is_held[k - 1];
+        it->is_blocked[k] = is_blocked(it, k, it->net, it->net + nv);
+        if (it->row[k].pair == 2) it->is_blocked[k] = it->is_blocked[k - 1] = it->is_blocked[k] && it->is_blocked[k - 1];
     }
     for (int j = 0; j < n && !status; j++)
         for (int k = 0; k < n; k++) it->W[j * n + k] = zd_dot(nv, it->g + (size_t)j * nv, it->x + (size_t)k * nv);

@@ -5,7 +5,7 @@
 #include "../contact/problem.h"
 #include "phases.h"
 
-enum { ZD_MAX_TOUCHING = 256 };     /* candidates at one instant; those that act on each other are ZD_MAX_CANDIDATES at most */
+enum { ZD_MAX_TOUCHING = 256 };     /* candidates at one instant, of which ZD_MAX_CANDIDATES may be coupled */
 
 typedef struct zd_contacts {
     zd_run *run;
@@ -22,13 +22,13 @@ typedef struct zd_contacts {
     double slip_error[ZD_MAX_TOUCHING];   /* m/s: slip that counts as zero where it has just reversed */
     int has_reversed;       /* true if a slip in two directions has */
     int free_forces, free_normals;      /* numbers of forces that are not determined: of contacts that stick, and normal ones */
-    int part[ZD_MAX_TOUCHING], parts;       /* candidates of the same part act on each other; -1: it is held */
+    int part[ZD_MAX_TOUCHING], parts;       /* number of the part of coupled candidates, and of all parts; -1: blocked */
     double gap[ZD_MAX_TOUCHING];
     double w[ZD_MAX_TOUCHING], b[ZD_MAX_TOUCHING], z[ZD_MAX_TOUCHING], after[ZD_MAX_TOUCHING];
     double omitted[ZD_MAX_TOUCHING];      /* m/s: speed that a bounce would have after an impact slower than the rest speed */
     double *g, *x;          /* (count, nv) */
     double *W, *scratch, *zero, *net;       /* (count, count); of the problem; (m,); (2 nv,) */
-    int is_held[ZD_MAX_TOUCHING];           /* true if the other constraints prevent all motion along the row */
+    int is_blocked[ZD_MAX_TOUCHING];        /* true if constraints prevent all motion along the candidate's direction */
     signed char *next;      /* (groups,) */
     int is_changed;         /* true if an impulse has changed velocities */
     signed char ends[ZD_MAX_TOUCHING];    /* state that a row must enter whose margin became zero at this instant; ZD_OPEN: any */
@@ -51,8 +51,10 @@ void zd_contacts_apply(zd_contacts *self, const double *z);
 void zd_contacts_find_parts(zd_contacts *self);
 /* Solves the problems of the first rows with b; `what` is their name in messages. */
 int zd_contacts_solve(zd_contacts *self, int rows, const char *what);
-/* z (count,) <- impulses along the closed and sticking rows that change their velocities by -w (count,). */
+/* z (count,) <- impulses of the closed and sticking contacts for changes -w (count,) of their velocities. */
 int zd_contacts_find_correction(const zd_contacts *self, const double *w, double *z);
+/* Enters the phase `next`. */
+int zd_contacts_enter(zd_contacts *self);
 /* Row of the constraints of the full system that a candidate is. */
 static inline int zd_candidate_row(const zd_contacts *self, int k)
 {
@@ -69,6 +71,9 @@ static inline double zd_rest_speed(const zd_contacts *self, int k)
 {
     return 1e-6 * zd_group_scale(self->phases, zd_candidate_group(self, k));
 }
+
+/* Velocity that is rounding, relative to the rest speed */
+static const double ZD_STILL = 1e-3;
 
 /* Gap of a start or of a joint, relative to the characteristic length, beyond which it is an error */
 static const double ZD_PENETRATION = 1e-9;

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double CUT = 1e-9;     /* smallest share of a step that is left after an event */
+static const double MIN_STEP_SHARE = 1e-9;  /* smallest remainder of a step that an event has cut */
 
 static size_t count_speeds(const zd_inputs *inputs)
 {
@@ -193,7 +193,7 @@ static int have_speeds_to_follow(const zd_run *run)
     const zd_inputs *inputs = run->settings.inputs;
     const double h = run->settings.step;
     for (const zd_input_slot *place = inputs->place; place < inputs->place + inputs->places; place++)
-        if (is_followed(place) && run->stepper.t < place->place[2] + (1 - CUT) * h) return 1;
+        if (is_followed(place) && run->stepper.t < place->place[2] + (1 - MIN_STEP_SHARE) * h) return 1;
     return 0;
 }
 

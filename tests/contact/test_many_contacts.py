@@ -1,4 +1,4 @@
-"""Contacts that do not act on each other, and friction where other constraints prevent all motion: against closed forms."""
+"""Uncoupled contacts, and friction of joints that other constraints block: against closed forms."""
 
 import numpy as np
 import pytest
@@ -148,7 +148,7 @@ def test_laws_that_read_reactions_decide_what_slides(coordinates):
 
 
 def test_laws_that_lead_from_each_state_to_another_are_named():
-    with pytest.raises(zd.NoUniqueMotion, match="in one state"):
+    with pytest.raises(zd.NoUniqueMotion, match="must agree with the forces that laws read"):
         zd.simulate(pulled(lambda n: 9.0 - 0.3 * n), 1.0, step=0.01)
 
 
