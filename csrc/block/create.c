@@ -97,7 +97,7 @@ static int make(zd_block *self, const arrays *from, zd_complaint to)
     self->system.names = &self->names;
     if (!self->laws.have_ends) self->system.check_domain = NULL;
     if (zd_block_count(&self->layout, ZD_BLOCK_LAWS))
-        self->system.failure = "a user function of the mechanism is not defined here, as a table beyond its ends";
+        self->system.failure = "a user function of the mechanism must be defined at this state: a table, for example, within its ends";
     self->outputs = (zd_outputs){NULL, zd_block_count(&self->layout, ZD_BLOCK_OUTPUTS), self->output};
     if (!fits(self, to)) return 0;
     zd_block_inputs_begin(self);

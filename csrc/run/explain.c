@@ -50,9 +50,10 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
         break;
     case ZD_BIFURCATION:
         snprintf(to, size, "the constraints do not determine the motion here (a bifurcation: %s from the others); %s", rows,
-                 run->motion.point->rank->is_large ? "among so many rows no branch is looked for, so begin beside it"
+                 run->motion.point->rank->is_large
+                 ? "branches of so many constraints are not computed: the start must be beside the bifurcation"
                  : run->settings.on_singular == ZD_STOP ? ON_SINGULAR
-                 : "no branch was found that the motion is on, and independent velocities need one; 'schur' does not");
+                 : "independent velocities require the branch of the motion, and none was found; 'schur' does not");
         break;
     case ZD_BIFURCATION_PASSED:
         snprintf(to, size, "%s; a smaller step shows which, " ON_SINGULAR, zd_sentence(status));
@@ -125,7 +126,7 @@ static void describe_collapse(const zd_run *run, char *to, size_t size)
     const zd_collapse *collapse = &run->loop.control.collapse;
     const double t = run->motion.point->t;
     const int digits = digits_of(collapse->t, t);
-    char where[160] = "a law jumps back as soon as it has jumped, as both of its sides lead to the jump";
+    char where[160] = "a law jumps back at once: on both sides of its jump it drives the motion to the jump";
     if (collapse->count)
         snprintf(where, sizeof where, "the step size has collapsed %d times between t = %.*g and %.*g, now to %.3g s", ZD_COLLAPSES, digits,
                  collapse->t, digits, t, collapse->h);

@@ -113,7 +113,7 @@ def test_vibrations_on_a_stiff_floor_that_is_hardly_pressed(stiffness):
 
 
 @pytest.mark.parametrize(("given", "words"), [({"restitution": 0.5}, "no restitution"), ({"friction": 0.5}, "no friction"),
-                                              ({"stiffness": None, "damping": 0.5}, "go with stiffness="),
+                                              ({"stiffness": None, "damping": 0.5}, "must be given with stiffness="),
                                               ({"exponent": 0.5}, "exponent of 'c'"), ({"damping": -1.0}, "damping of 'c'")])
 def test_what_does_not_go_together_is_refused(given, words):
     m = zd.Mechanism("m")

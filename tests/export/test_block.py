@@ -136,7 +136,7 @@ def test_a_table_left_ends_the_run_with_a_sentence():
     options.t1 = 0.1
     made, record = gateway.Run(core, options, *core.start), gateway.Record(core, 200)
     assert made.advance(record, 1e3) == gateway.CALLBACK
-    assert "a table beyond its ends" in made.message
+    assert "a table, for example, within its ends" in made.message
 
 
 def test_inputs_are_set_by_name():

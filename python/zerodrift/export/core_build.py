@@ -103,6 +103,6 @@ def run(line: Sequence[str], here: Path) -> None:
     """Run a command in a folder; the first error that it prints is that of the exception."""
     result = subprocess.run(line, cwd=here, capture_output=True, text=True, check=False)
     if result.returncode:
-        told = result.stderr.strip().splitlines() or ["no message"]
-        first = next((each for each in told if "error:" in each), told[0])      # warnings may precede it
+        lines = result.stderr.strip().splitlines() or ["no message"]
+        first = next((each for each in lines if "error:" in each), lines[0])      # warnings may precede it
         raise CompilationFailed(f"{Path(line[0]).name} must compile the core, and failed: {first}")

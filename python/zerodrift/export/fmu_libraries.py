@@ -15,7 +15,7 @@ from ..symbolics.compile import compilers
 from . import core_build
 from .core_files import CoreFiles
 
-FLAGS = ("-O1", "-std=c11", "-ffp-contract=off", "-fPIC", "-fvisibility=hidden")       # as fast as -O2, and compiled sooner
+FLAGS = ("-O1", "-std=c11", "-ffp-contract=off", "-fPIC", "-fvisibility=hidden")      # -O2 takes longer to compile
 MACHINES = {"x86_64": "x86_64", "amd64": "x86_64", "aarch64": "aarch64", "arm64": "aarch64"}
 SYSTEMS = {"linux": "linux", "darwin": "darwin", "win32": "windows"}
 SUFFIXES = {"linux": ".so", "darwin": ".dylib", "windows": ".dll"}

@@ -155,7 +155,7 @@ class ContactVerbs(Elements):
         lower, upper = (None if value is None else checks.number(f"{word} of {name!r}", value)
                         for word, value in (("lower", lower), ("upper", upper)))
         if lower is None and upper is None:
-            raise WrongType(f"stop {name!r} needs lower=, upper= or both", "missing-argument")
+            raise WrongType(f"stop {name!r} must have lower=, upper= or both", "missing-argument")
         if lower is not None and upper is not None and not lower < upper:
             raise WrongValue(f"lower of {name!r} must be less than upper, and {lower:g} is not less than {upper:g}",
                              "out-of-range")
@@ -238,7 +238,7 @@ def with_switches(m: Elements, joint: Joint, given: Mapping[str, Any]) -> Joint:
         raise WrongType(f"friction of {name!r} must be given by its load or by bounds, not both", "conflicting-arguments")
     if ("radius" in given or "guide" in given or joint.coordinate == "angle") and ("radius" in given) != (
             "friction" in values and joint.coordinate == "angle"):
-        raise WrongType(f"friction of {name!r} goes with radius=, that of the pin", "missing-argument")
+        raise WrongType(f"friction of {name!r} must be given with radius=, that of the pin", "missing-argument")
     values |= {word: checks.number(f"{word} of {name!r}", given[word], above=0) for word in ("radius", "guide") if word in given}
     joint._switched = Switched(**values)
     if joint._switched.needs_rows:
@@ -252,7 +252,7 @@ def _compliance(name: str, stiffness: Any, damping: Any, exponent: Any) -> Compl
     """Law of a compliant contact, checked; None: it is rigid."""
     if stiffness is None:
         if damping or exponent != 1.0:
-            raise WrongType(f"damping= and exponent= of {name!r} go with stiffness=, the law of a compliant contact or stop",
+            raise WrongType(f"damping= and exponent= of {name!r} must be given with stiffness=, of a compliant contact or stop",
                             "conflicting-arguments")
         return None
     return Compliance(checks.number(f"stiffness of {name!r}", stiffness, above=0),
