@@ -54,16 +54,19 @@ def _definitions() -> dict[str, str]:
 @functools.cache
 def included(path: str) -> frozenset[str]:
     """Headers that a file includes, and those that they include."""
-    found, waiting = set(), [path]
+    found, waiting = set[str](), [path]
     while waiting:
-        one = waiting.pop()
-        for name in INCLUDE.findall(_texts()[one]):
-            beside = _normal(PurePosixPath(one).parent / name)
-            header = beside if beside in _texts() else name
-            if header not in found:
-                found.add(header)
-                waiting.append(header)
+        new = _headers(waiting.pop()) - found
+        found |= new
+        waiting += new
     return frozenset(found)
+
+
+@functools.cache
+def _headers(path: str) -> set[str]:
+    """Headers in the lines of a file."""
+    names = {name: _normal(PurePosixPath(path).parent / name) for name in INCLUDE.findall(_texts()[path])}
+    return {beside if beside in _texts() else name for name, beside in names.items()}
 
 
 def _normal(path: PurePosixPath) -> str:
@@ -76,8 +79,13 @@ def _normal(path: PurePosixPath) -> str:
 @functools.cache
 def _used(path: str) -> frozenset[str]:
     """Names that a source uses, with those in inline functions of the headers it includes, without declarations."""
-    texts = [_texts()[path], *(DECLARATION.sub("", _texts()[header]) for header in included(path) if header != METHODS)]
-    return frozenset(name for text in texts for name in NAME.findall(text))
+    return frozenset(NAME.findall(_texts()[path])).union(*map(_used_inline, included(path) - {METHODS}))
+
+
+@functools.cache
+def _used_inline(header: str) -> frozenset[str]:
+    """Names in a header, without declarations."""
+    return frozenset(NAME.findall(DECLARATION.sub("", _texts()[header])))
 
 
 class CoreFiles:
