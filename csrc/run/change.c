@@ -65,8 +65,8 @@ static int make_impact(zd_contacts *it)
         it->phases->last.loss[it->group[normal]] -= it->z[k] * (before[k] + it->w[k]) / 2;
     }
     if (gained <= GAIN * exchanged) return ZD_DONE;
-    snprintf(it->run->outcome.message, ZD_MESSAGE, "the impact of contact '%s' and those that touch with it would gain %.3g J: coefficients "
-             "of restitution must be equal, or friction smaller", zd_candidate_group(it, 0)->name, gained);
+    snprintf(it->run->outcome.message, ZD_MESSAGE, "the impact of contact '%s' and of the contacts that act with it must not gain "
+             "energy, and gains %.3g J; use equal coefficients of restitution, or less friction", zd_candidate_group(it, 0)->name, gained);
     return ZD_SEVERAL_MOTIONS;
 }
 

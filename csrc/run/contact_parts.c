@@ -95,12 +95,12 @@ int zd_contacts_solve(zd_contacts *it, int rows, const char *what)
     for (int index = 0; index < it->parts; index++) {
         const int found = list(it, index, rows, &one) ? solve_part(it, &one) : -1;
         if (found == 1) continue;
-        const char *how = found == -2 ? "the normal forces that bound sliding friction are not determined: contacts must be fewer"
-                        : found < 0 ? "coupled contacts that change at one instant must be fewer"
+        const char *how = found == -2 ? "the normal forces that sliding friction depends on must be unique; use fewer contacts"
+                        : found < 0 ? "too many coupled contacts change at one instant; use fewer contacts"
                         : !found ? rows > it->normals ? "no solution exists, as in Painleve's paradox: friction must be smaller"
                                                       : "no solution exists: drives and joints must allow the bodies to stop"
                         : "several solutions exist, as in Painleve's paradox: friction must be smaller";
-        snprintf(it->run->outcome.message, ZD_MESSAGE, "%s of contact '%s' and those that act with it: %s", what,
+        snprintf(it->run->outcome.message, ZD_MESSAGE, "%s of contact '%s' and of the contacts that act with it: %s", what,
                  zd_candidate_group(it, one.row[0])->name, how);
         return ZD_SEVERAL_MOTIONS;
     }

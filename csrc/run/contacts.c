@@ -13,7 +13,7 @@ static const double CANCELLED_SHARE = 1e-11;      /* share of an impulse that is
 
 static int refuse_start(zd_contacts *it, const zd_group *group, double gap)
 {
-    snprintf(it->run->outcome.message, ZD_MESSAGE, "the start must not penetrate contact '%s': its gap is %.3g", group->name, gap);
+    snprintf(it->run->outcome.message, ZD_MESSAGE, "contact '%s' must not penetrate at the start: its gap is %.3g", group->name, gap);
     return ZD_BAD_START;
 }
 
@@ -102,7 +102,7 @@ static int add_candidate(zd_contacts *it, int g, int component, int normal, doub
 {
     const zd_group *group = it->phases->full->group + g;
     if (it->count == ZD_MAX_TOUCHING) {
-        snprintf(it->run->outcome.message, ZD_MESSAGE, "contacts and frictions that change at one instant must be at most %d",
+        snprintf(it->run->outcome.message, ZD_MESSAGE, "at most %d contacts and frictions may change at one instant; use fewer contacts",
                  ZD_MAX_TOUCHING);
         return ZD_SEVERAL_MOTIONS;
     }

@@ -38,8 +38,8 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
     switch (status) {
     case ZD_NOT_DEFINITE:
         snprintf(to, size, "%s (first seen at velocity %d)%s", zd_sentence(status), failed_index,
-                 run->motion.formulation->inverts_mass ? ", and 'schur' inverts it; 'augmented' and 'nullspace' only need that constraints "
-                                                  "hold what has no mass"
+                 run->motion.formulation->inverts_mass ? ", and 'schur' inverts it; 'augmented' and 'nullspace' require only that "
+                                                  "constraints determine the motion of massless parts"
                                                 : "");
         break;
     case ZD_NOT_SYMMETRIC: describe_asymmetry(run->motion.point, to, size); break;
@@ -51,7 +51,7 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
     case ZD_BIFURCATION:
         snprintf(to, size, "the constraints do not determine the motion here (a bifurcation: %s from the others); %s", rows,
                  run->motion.point->rank->is_large
-                 ? "branches of so many constraints are not computed: the start must be beside the bifurcation"
+                 ? "branches of so many constraints are not computed; start beside the bifurcation"
                  : run->settings.on_singular == ZD_STOP ? ON_SINGULAR
                  : "independent velocities require the branch of the motion, and none was found; 'schur' does not");
         break;
@@ -94,10 +94,10 @@ static int digits_of(double from, double to)
 /* Cause of many steps. */
 static void describe_shortness(const zd_run *run, char *to, size_t size)
 {
-    if (run->loop.control.is_by_move) snprintf(to, size, "max_move = %.3g sets the size of the last of them; a larger one takes fewer",
-                                               run->settings.max_move);
-    else snprintf(to, size, "something changes fast there, %s", run->stepper.integrator->decay == 0
-                  ? "such as a force that jumps; a smooth force, or events at its jumps, take fewer"
+    if (run->loop.control.is_by_move) snprintf(to, size, "max_move = %.3g sets the size of the last of them; a larger value takes "
+                                               "fewer steps", run->settings.max_move);
+    else snprintf(to, size, "the motion changes quickly there, %s", run->stepper.integrator->decay == 0
+                  ? "for example by a force that jumps; a smooth force, or events at its jumps, takes fewer steps"
                   : "or the problem is stiff and needs an implicit method, such as 'radau'");
 }
 
@@ -109,7 +109,7 @@ static void describe_steps(const zd_run *run, char *to, size_t size)
     zd_step_histogram_half(&run->loop.control.histogram, &a, &b);
     int digits = digits_of(a, b);
     snprintf(to, size, "max_steps = %" PRId64 " steps were taken; half of the steps lie between t = %.*g and %.*g: %s; "
-             "max_steps=None sets no bound", run->settings.max_steps, digits, a, digits, b, why);
+             "max_steps=None removes the limit", run->settings.max_steps, digits, a, digits, b, why);
 }
 
 static void describe_underflow(const zd_run *run, char *to, size_t size)
@@ -126,12 +126,12 @@ static void describe_collapse(const zd_run *run, char *to, size_t size)
     const zd_collapse *collapse = &run->loop.control.collapse;
     const double t = run->motion.point->t;
     const int digits = digits_of(collapse->t, t);
-    char where[160] = "a law jumps back at once: on both sides of its jump it drives the motion to the jump";
+    char where[160] = "a force law jumps back immediately: on both sides of its jump it drives the motion to the jump";
     if (collapse->count)
         snprintf(where, sizeof where, "the step size has collapsed %d times between t = %.*g and %.*g, now to %.3g s", ZD_COLLAPSES, digits,
                  collapse->t, digits, t, collapse->h);
-    snprintf(to, size, "%s: the rate of velocity %d jumps back and forth there, as by dry friction, a force that jumps where its speed "
-             "changes its sign; a smooth force, or friction that sticks, takes fewer steps; max_steps=None goes on", where,
+    snprintf(to, size, "%s: the rate of velocity %d jumps back and forth there, as under a friction force that jumps when its speed "
+             "changes sign; a smooth force, or friction that sticks, takes fewer steps; max_steps=None continues", where,
              (int)run->motion.statistics.part);
 }
 
@@ -333,6 +333,6 @@ int zd_explain(zd_run *run, int status)
     const size_t said = zd_say_where(run->outcome.message, sizeof run->outcome.message, t, run->loop.step, run->loop.steps);
     snprintf(run->outcome.message + said, sizeof run->outcome.message - said, "%s", what);
     if (run->loop.parts && status != ZD_BIFURCATION && strlen(run->outcome.message) < sizeof run->outcome.message - 48)
-        strcat(run->outcome.message, ", also when it is made in parts");
+        strcat(run->outcome.message, ", also when the step is divided");
     return status;
 }

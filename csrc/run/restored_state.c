@@ -51,8 +51,8 @@ static const char *wrong_header(const uint64_t *header, const unsigned char *blo
 {
     uint64_t expected[ZD_STATE_FINGERPRINT_WORDS] = {0};
     zd_state_write_fingerprint(fingerprint, expected);
-    if (bytes < HEADER * WORD || header[0] != ZD_STATE_MAGIC) return "a saved state must be one that this version has saved";
-    if (header[ALL_BYTES] != bytes) return "a saved state must be whole: some of its bytes are missing, or there are more";
+    if (bytes < HEADER * WORD || header[0] != ZD_STATE_MAGIC) return "a saved state must have been saved by this version";
+    if (header[ALL_BYTES] != bytes) return "a saved state must be whole: bytes are missing or added";
     if (zd_state_hash(0, block + HEADER * WORD, bytes - HEADER * WORD) != header[CHECKSUM])
         return "a saved state must be unchanged: it is damaged";
     if (memcmp(expected, header + FINGERPRINT, sizeof expected) || header[COORDINATES] != (uint64_t)system->nq

@@ -220,7 +220,7 @@ static int check_quaternions(zd_run *run)
     if (wrong < 0) return status;
     const int first = point->system->quaternion[wrong];
     snprintf(run->outcome.message, sizeof run->outcome.message,
-             "p[%d] to p[%d] are a unit quaternion, and the kinematic matrix changes its length: velocity %d moves it along itself", first,
+             "the kinematic matrix must keep the length of the unit quaternion p[%d] to p[%d], and velocity %d changes it", first,
              first + 3, velocity);
     return ZD_NOT_KEPT;
 }

@@ -18,8 +18,8 @@ static int find_offset(zd_run *run, const zd_group *group, enum zd_joining how)
         largest = fmax(largest, fabs(Phi - phases->offset[k]));
     }
     if (status || largest <= ZD_PENETRATION * phases->length) return status;
-    snprintf(run->outcome.message, ZD_MESSAGE, "joint '%s' must be closed when it joins, and is open by %.3g; here=True holds it as it "
-             "stands", group->name, largest);
+    snprintf(run->outcome.message, ZD_MESSAGE, "joint '%s' must be closed when it joins, and is open by %.3g; here=True joins it in "
+             "its present position", group->name, largest);
     return ZD_BAD_START;
 }
 

@@ -106,6 +106,6 @@ def box(*, width: float, height: float, mass: float | None = None, density: floa
 
 def _mass(mass: float | None, density: float | None, size: float, unit: str) -> float:
     if (mass is None) == (density is None):
-        raise WrongType(f"mass, in kg, or density, in {unit}, must be given, not {'both' if mass is not None else 'neither'}",
+        raise WrongType(f"either mass in kg or density in {unit} must be given, not {'both' if mass is not None else 'neither'}",
                         "conflicting-arguments")
     return checks.number("mass", mass, above=0) if density is None else checks.number("density", density, above=0) * size

@@ -290,10 +290,10 @@ def test_files_and_states_carry_contacts_in_space(tmp_path):
 
 def test_shapes_of_the_other_dimension_are_refused():
     m, body = ball((0, 0, R))
-    with pytest.raises(ValueError, match=r"a line is a shape in the plane: in space it must be plane\(\) or sphere\(\)"):
+    with pytest.raises(ValueError, match=r"a shape in space must be plane\(\) or sphere\(\) of the body, not a line"):
         m.ground.line((0, 0), (1, 0))
     flat = zd.Mechanism("flat")
-    with pytest.raises(ValueError, match=r"a sphere is a shape in space: in the plane it must be line\(\)"):
+    with pytest.raises(ValueError, match=r"a shape in the plane must be line\(\), .*, not a sphere"):
         flat.ground.sphere((0, 0), 1.0)
     with pytest.raises(TypeError, match=r"shape of 'a' must be a shape of a body, body.plane\(point, normal\)"):
         m.contact("a", body, "floor")

@@ -32,7 +32,7 @@ DOP853 = list(zd.integrators()).index("dop853")
     ({"step": -0.1}, "step must be finite"),
     ({"step": np.inf}, "step must be finite"),
     ({"step": np.nan}, "step must be finite"),
-    ({"t0": 1e9, "t1": 2e9, "step": 1e-9}, "at least 16 roundings of the time"),
+    ({"t0": 1e9, "t1": 2e9, "step": 1e-9}, "at least 16 times the rounding error of the time"),
     ({"step": 0.0}, "step must be finite"),
     ({"steps": 2}, "steps must be fixed or adaptive"),
     ({"steps": ADAPTIVE}, "this integrator must be given a step"),

@@ -80,7 +80,7 @@ def test_a_tolerance_below_what_doubles_reach(bar):
 
 def test_a_correction_that_does_not_converge(bar):
     message = (r"^at t = .* \(step \d+ of 160\): the position correction left max .* of its size after 1 iterations, full and "
-               r"shortened \(tolerance 1e-15\), also when it is made in parts \[zd:correction-failed\]$")
+               r"shortened \(tolerance 1e-15\), also when the step is divided \[zd:correction-failed\]$")
     sol = failed("correction-failed", message,
                  lambda: motion(bar, 8.0, 160, stabilization=zd.Projection(tol=1e-15, max_iterations=1)))
     assert_close(sol.t, 0.05 * np.arange(len(sol.t)), tol.SAME)
@@ -88,7 +88,7 @@ def test_a_correction_that_does_not_converge(bar):
 
 
 def test_a_step_far_too_large(bar):
-    failed("branch-jump", r"made in parts \[zd:branch-jump\]$", lambda: zd.simulate(bar, 8.0, step=2.0))
+    failed("branch-jump", r"the step is divided \[zd:branch-jump\]$", lambda: zd.simulate(bar, 8.0, step=2.0))
 
 
 def test_an_implicit_step_far_too_large(bar):

@@ -76,8 +76,8 @@ def test_states_of_equal_runs_are_equal(bar):
 
 
 @pytest.mark.parametrize(("change", "sentence"), [
-    (lambda state: state[:-8], "must be whole"), (lambda state: state[:3], "must be one that"),
-    (lambda state: state + b"\0" * 8, "must be whole"), (lambda state: b"x" * len(state), "must be one that"),
+    (lambda state: state[:-8], "must be whole"), (lambda state: state[:3], "must have been saved"),
+    (lambda state: state + b"\0" * 8, "must be whole"), (lambda state: b"x" * len(state), "must have been saved"),
     (lambda state: state[:180] + bytes([state[180] ^ 1]) + state[181:], "must be unchanged")],
     ids=["truncated", "very short", "longer", "text", "a bit"])
 def test_other_bytes_are_refused(bar, change, sentence):

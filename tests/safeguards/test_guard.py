@@ -48,7 +48,7 @@ def test_a_step_too_long_is_made_in_parts(bar):
 
 
 def test_where_parts_do_not_help_the_run_stops_with_what_is_left(bar):
-    with refused("branch-jump", "in parts") as caught:
+    with refused("branch-jump", "is divided") as caught:
         zd.simulate(bar, 8.0, step=2.0)
     sol = caught.value.solution
     assert (side(sol) == side(sol)[0]).all()

@@ -241,7 +241,7 @@ def test_no_step_moves_a_coordinate_further_than_it_may(method, equations):
 def test_steps_that_moves_make_short_name_the_bound_of_moves(max_move, code):
     with refused(code, f"max_move = {max_move:g}"):
         zd.simulate(BAR, 1.0, max_move=max_move, max_steps=300)
-    with refused("too-many-steps", "something changes fast"):
+    with refused("too-many-steps", "the motion changes quickly"):
         zd.simulate(BAR, 1.0, rtol=1e-10, max_move=10.0, max_steps=10)
 
 

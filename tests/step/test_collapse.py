@@ -34,7 +34,7 @@ def called(v, seen=[]):     # noqa: B006
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("rtol", [1e-6, 1e-9])
 def test_a_law_that_jumps_back_is_reported_at_its_instant(method, rtol):
-    with refused("step-collapse", "a law jumps back at once") as failed:
+    with refused("step-collapse", "a force law jumps back immediately") as failed:
         zd.simulate(sledge(dry), 2.0, rtol=rtol, atol=1e-3 * rtol, integrator=method)
     assert failed.value.__notes__ == ["velocity 0 is 'rail.speed'; 'friction' jumps there"]
     assert abs(failed.value.solution.t[-1] - STOP) < rtol

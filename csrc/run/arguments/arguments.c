@@ -159,7 +159,7 @@ static const char *wrong_course(const zd_settings *settings)
     const rule times[] = {
         {!isfinite(settings->t1 - settings->t0) || !(settings->t1 > settings->t0), "t1 must be after t0, both finite"},
         {settings->steps != ZD_FIXED_STEPS && !adaptive, "steps must be fixed or adaptive"},
-        {!adaptive && !(step >= resolved && step < INFINITY), "step must be finite, and at least 16 roundings of the time"},
+        {!adaptive && !(step >= resolved && step < INFINITY), "step must be finite, and at least 16 times the rounding error of the time"},
         {settings->t_eval && !is_increasing_within(settings->t_eval, settings->t_evals, settings->t0, settings->t1),
          "t_eval must increase, from t0 to t1"},
         {!settings->t_eval && settings->save_every < 1, "save_every must be at least 1"},
@@ -210,8 +210,8 @@ static int check_reactions(const zd_system *system, const zd_settings *settings,
 {
     const zd_integrator *integrator = zd_integrator_of(settings->integrator);
     if (!system->reading || zd_evaluates_accelerations(integrator)) return ZD_DONE;
-    snprintf(message, size, "'%s' must have forces of t, positions and velocities alone, and a user function reads a reaction or an "
-             "acceleration; explicit methods, 'trapezoidal' and 'radau' solve for it", integrator->card.name);
+    snprintf(message, size, "'%s' must have forces that depend on t, positions and velocities only, and a user function reads a reaction or "
+             "an acceleration; explicit methods, 'trapezoidal' and 'radau' accept it", integrator->card.name);
     return ZD_UNSUITED_INTEGRATOR;
 }
 
@@ -224,9 +224,9 @@ int zd_check_method(const zd_system *system, const zd_settings *settings, char *
     if (!status) status = check_series(system, settings, message, size);
     const zd_formulation *formulation = status ? NULL : zd_formulation_of(settings->formulation);
     if (!status && zd_is_too_large(system) && zd_rank_is_of_many(system) && !zd_has_many_constraints(formulation, system)) {
-        snprintf(message, size, "'%s' has dense matrices where a kinematic matrix stands between velocities and rates: such a system "
-                 "must have at most %d velocities, not %d; 'schur', 'augmented', 'nullspace' and 'mixed' take them at a cost that "
-                 "follows the bodies", formulation->card.name, ZD_MAX_IMPLICIT, system->nv);
+        snprintf(message, size, "'%s' uses dense matrices for a system with a kinematic matrix, which must have at most %d "
+                 "velocities, not %d; the cost of 'schur', 'augmented', 'nullspace' and 'mixed' is "
+                 "proportional to the number of bodies", formulation->card.name, ZD_MAX_IMPLICIT, system->nv);
         return ZD_UNSUITED;
     }
     return status ? status : refuse(wrong_events(system, settings->events, settings->inputs), message, size);

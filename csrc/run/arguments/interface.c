@@ -79,7 +79,7 @@ static int check_groups_of_rows(const zd_system *system, text message)
                       structure->groups);
     for (int g = 0; g < structure->groups && !status; g++) {
         if (structure->rows[g] < 1 || structure->rows[g] > m - rows)
-            return refuse(message, "structure: group %d must have at least one row, and at most the %d of %d that are left for it, not %d", g,
+            return refuse(message, "structure: group %d must have at least one row, and at most the %d of %d that remain, not %d", g,
                           m - rows, m, structure->rows[g]);
         if (rows < system->mh && rows + structure->rows[g] > system->mh)
             return refuse(message, "structure: the rows of group %d must all be holonomic, or all nonholonomic", g);
@@ -182,7 +182,7 @@ static int check_closed_form(const zd_system *system, text message)
         if ((unsigned)closed_form->unit > ZD_AVX512)
             return refuse(message, "closed_form: the vector unit of set %d must be from 0 to 2, not %d", i, (int)closed_form->unit);
         if (known[closed_form->unit] & closed_form->lanes)
-            return refuse(message, "closed_form: set %d must not be a second one of %d lanes for its vector unit", i, closed_form->lanes);
+            return refuse(message, "closed_form: set %d must be the only one with %d lanes for its vector unit", i, closed_form->lanes);
         known[closed_form->unit] |= closed_form->lanes;
         int status = check_orders(system, i, message);
         if (status) return status;
@@ -259,7 +259,7 @@ static int check_switched_group(const zd_system *system, int i, text message)
     const int m = system->mh + system->mn, most = group->kind == ZD_TWO_SIDED ? m : group->kind == ZD_FRICTION ? 2 : 1;
     if (!group->name || !*group->name) return refuse(message, "groups: group %d must have a name", i);
     if (group->rows < 1 || group->first < 0 || group->first > m - group->rows || group->rows > most)
-        return refuse(message, "groups: %s must have rows among the %d, at most %d, not %d rows from row %d on", group->name,
+        return refuse(message, "groups: %s must have rows among the system's %d, at most %d of them, not %d rows from row %d on", group->name,
                       m, most, group->rows, group->first);
     if (group->first < system->mh && group->first + group->rows > system->mh)
         return refuse(message, "groups: %s must have rows of one kind, holonomic or not", group->name);
@@ -276,13 +276,14 @@ static int check_switched_group(const zd_system *system, int i, text message)
         return refuse(message, "groups: the opposite side of %s must be a one-sided group", group->name);
     if (group->kind != ZD_FRICTION) return ZD_DONE;
     if (!(group->friction[1] >= 0 && group->friction[0] >= group->friction[1]))
-        return refuse(message, "friction of '%s' must not be negative, nor sliding friction more than static, and is %g and %g", group->name,
-                      group->friction[1], group->friction[0]);
+        return refuse(message, "friction of '%s' must be at least 0, and sliding friction at most static friction, not %g and %g",
+                      group->name, group->friction[1], group->friction[0]);
     if (group->normal < 0 || group->normal > system->groups || (group->normal && system->group[group->normal - 1].kind != ZD_ONE_SIDED))
         return refuse(message, "groups: the normal of %s must be a one-sided group", group->name);
     if (group->loads < 0 || group->loads > 4 || (group->at_ends && group->loads % 2)
         || (group->loads && (group->load < 0 || group->load > m - group->loads)))
-        return refuse(message, "groups: the load of %s must be multipliers of at most 4 existing rows, in halves for both ends", group->name);
+        return refuse(message, "groups: the load of %s must be multipliers of at most 4 existing rows, half of them for each end if it has "
+                      "two", group->name);
     return ZD_DONE;
 }
 
@@ -308,7 +309,7 @@ static int check_quaternions(const zd_system *system, text message)
     for (int k = 0; k < system->quaternions; k++) {
         const int first = system->quaternion[k];
         if (first < end || first > system->nq - 4)
-            return refuse(message, "quaternions: quaternion %d must be four of the %d coordinates, after those of the one before; it "
+            return refuse(message, "quaternions: quaternion %d must be four of the %d coordinates, after those of the previous one; it "
                           "begins at p[%d]", k, system->nq, first);
         end = first + 4;
         for (int i = first; i < end; i++)
@@ -326,7 +327,7 @@ static int check_followers(const zd_system *system, text message)
                       system->followers);
     const int has_rates = system->structure ? system->operations && system->operations->times_A : system->provides & ZD_A;
     if (system->followers && !has_rates)
-        return refuse(message, "followers: their rates must be in A, or with a structure, whose blocks do not have them, in times_A");
+        return refuse(message, "followers: their rates must be in A, or, for a system with structure, in times_A");
     return ZD_DONE;
 }
 

@@ -47,7 +47,7 @@ def of_motion(system: BaseSystem, samples: tuple[np.ndarray, ...]) -> Any:
             name, kind = system._groups[g]
             before, now = (SLIDING.get(each[g]) or WORDS[kind][each[g]] or "open" for each in (first[1], found))
             raise WrongValue(f"motion must be in one phase, and {name!r} of {system.name} is {before} at t = {first[0]:g} and "
-                             f"{now} at t = {t:g}: give the samples of each phase by themselves", "not-available")
+                             f"{now} at t = {t:g}: give the samples of each phase separately", "not-available")
     return in_phase(system, first[1]) if first else system
 
 

@@ -109,9 +109,9 @@ class Search:
         if best is None or best.error > max(RESOLVED * motion.size, self.wanted):
             if motion.disagreement:
                 raise UnreachableTolerance("all runs that are compared must have the same sequence of phases, and it is "
-                                           f"{motion.disagreement}. Ask for a shorter t_span")
+                                           f"{motion.disagreement}; use a shorter t_span")
             raise UnreachableTolerance(f"no error can be certified: runs still differ with {last} steps; the motion takes "
-                                       "shorter ones, or multiplies round-off until nothing is left. Ask for a shorter t_span")
+                                       "shorter ones, or amplifies round-off until no digit is left; use a shorter t_span")
         return best
 
     def _way(self, steps: int) -> Way:

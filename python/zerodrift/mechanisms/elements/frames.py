@@ -161,7 +161,7 @@ class Shapes:
         if len(self.pose.origin) != dimension:
             own, where, verbs = (("in the plane", "in space", "plane() or sphere()") if dimension == 2 else
                                  ("in space", "in the plane", "line(), segment(), circle() or arc()"))
-            raise WrongValue(f"a {shape} is a shape {own}: {where} it must be {verbs} of the body", "wrong-dimension")
+            raise WrongValue(f"a shape {where} must be {verbs} of the body, not a {shape}, which is {own}", "wrong-dimension")
 
     def line(self, start: Any, end: Any) -> Line:
         """The unbounded line through two places of the drawing, that moves with the body, for `Mechanism.contact`.
