@@ -5,6 +5,8 @@
 #include "../linalg/roots.h"
 #include "phase_system.h"
 
+static const double TURNING_SHARE = 0.4;    /* turning slip, relative to its change by friction in a step */
+
 const double *zd_point_multipliers(const zd_point *point)
 {
     if (!point->phase) return point->lambda;
@@ -128,6 +130,19 @@ static double find_slip_margin(const zd_phase_system *self, int index, const dou
     zd_phase_slip(self, index, v, slip);
     if (self->full->group[index].rows == 1) return zd_slip_sign(self->state[index]) * slip[0];
     return d[0] * slip[0] + d[1] * slip[1];
+}
+
+void zd_phase_update_turning_slip(const zd_phase_system *self, const zd_settings *settings, const double *margin)
+{
+    const zd_group *group = self->full->group;
+    const double step = settings->steps == ZD_FIXED_STEPS ? settings->step : 0;
+    for (int g = 0; self->has_sliding_pairs && g < self->full->groups; g++) {
+        double sum = 0;
+        for (int i = 0; i < self->full->groups; i++)
+            if (group[i].normal && group[i].rows == 2 && zd_slides(self->state[i]) && self->part[i] == self->part[g])
+                sum += self->mobility[i] * fmax(0, margin[group[i].normal - 1]);
+        self->turning_slip[g] = TURNING_SHARE * step * sum;
+    }
 }
 
 int zd_phase_margin(zd_phase_system *self, const zd_point *point, int index, double t, const double *p, const double *v, double *margin)

@@ -135,6 +135,8 @@ zd_phase_system *zd_phase_system_create(zd_arena *arena, const zd_system *full, 
     self->lambda = zd_arena_doubles(arena, m);
     self->direction = zd_arena_doubles(arena, 2 * (size_t)groups);
     self->slip_speed = zd_arena_doubles(arena, groups);
+    self->mobility = zd_arena_doubles(arena, groups);
+    self->turning_slip = zd_arena_doubles(arena, groups);
     self->slow_steps = zd_arena_ints(arena, groups);
     self->slow_slip = ZD_SLOW_SLIP * (full->length > 0 ? full->length : 1);
     zd_known_terms known = {.p = zd_arena_doubles(arena, full->nq), .v = zd_arena_doubles(arena, full->nv),

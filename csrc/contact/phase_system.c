@@ -9,6 +9,11 @@
  * the start of the step,
  *
  *     e = w / |w|,      w = s + slow d (1 - |s|^2 / (4 slow)^2)^4, within 4 slow,      with s + 2 |s . d| d in the place of s where s . d < 0
+ *
+ * Explicit steps h do not resolve ds/dt = -k s / |s| where k h > 2.7 |s|. With fixed steps, slow is hence a share of k h, and e at the end
+ * of a step is d of the next one. Across a steady direction, this is stable with slow > k h / 2.7, and s becomes parallel to d:
+ *
+ *     ds/dt = -k (d + s / slow),      dd/dt = s / (slow h)
  */
 #include "phase_system.h"
 
@@ -97,8 +102,9 @@ static void find_direction(const zd_phase_system *self, double *scratch, int ind
     const double *d = self->direction + 2 * index;
     double s[2];
     slip_in(self, scratch, index, v, s);
-    const double along = s[0] * d[0] + s[1] * d[1], ratio = zd_hypotenuse(s[0], s[1]) / (4 * self->slow_slip);
-    const double left = fmax(0, 1 - ratio * ratio), added = self->slow_slip * left * left * left * left - 2 * fmin(0, along);
+    const double slow = fmax(self->slow_slip, self->turning_slip[index]);
+    const double along = s[0] * d[0] + s[1] * d[1], ratio = zd_hypotenuse(s[0], s[1]) / (4 * slow);
+    const double left = fmax(0, 1 - ratio * ratio), added = slow * left * left * left * left - 2 * fmin(0, along);
     for (int i = 0; i < 2; i++) s[i] += added * d[i];
     const double size = zd_hypotenuse(s[0], s[1]);
     for (int i = 0; i < 2; i++) e[i] = size > 0 ? s[i] / size : 0;
@@ -112,12 +118,13 @@ int zd_phase_update_directions(const zd_phase_system *self, int is_start, double
         if (status) return status;
         double s[2], *d = self->direction + 2 * g;
         zd_phase_slip(self, g, v, s);
-        const double size = zd_hypotenuse(s[0], s[1]);
+        double size = zd_hypotenuse(s[0], s[1]);
         self->slow_steps[g] = is_start || size > self->slow_slip ? 0 : self->slow_steps[g] + 1;
         if (self->slow_steps[g] > MAX_SLOW_STEPS) self->bias[g] -= FAST_SLIP * self->slow_slip;
         if (size <= self->slow_slip || (!is_start && d[0] * s[0] + d[1] * s[1] <= REVERSED_COSINE * size)) continue;
         self->slip_speed[g] = size;
         if (!is_start && size > FAST_SLIP * self->slow_slip) self->bias[g] = 0;
+        if (!is_start && self->turning_slip[g] > self->slow_slip) find_direction(self, self->scratch, g, v, s), size = 1;
         d[0] = s[0] / size, d[1] = s[1] / size;
     }
     return ZD_DONE;

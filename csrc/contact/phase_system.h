@@ -59,6 +59,8 @@ struct zd_phase_system {
     double slow_slip;       /* m/s: slip velocity in two directions below which it does not turn */
     double *direction;      /* (groups, 2): unit vectors of slip in two directions at the start of a step */
     double *slip_speed;     /* (groups,) m/s: its magnitude there */
+    double *mobility;       /* (groups,) 1/kg: acceleration of the slip of sliding friction by a unit normal force */
+    double *turning_slip;   /* (groups,) m/s: slip velocity below which a step does not resolve its direction */
     int *slow_steps;        /* (groups,) number of steps in which it has been slow */
     zd_sliding *sliding;    /* (groups,) */
     zd_structure structure;
@@ -110,6 +112,8 @@ const double *zd_phase_xi(const zd_phase_system *self);
 void zd_phase_slip(const zd_phase_system *self, int group, const double *v, double *slip);
 /* Directions of slip <- those at a state, unless they have reversed; at a start in any case. */
 int zd_phase_update_directions(const zd_phase_system *self, int is_start, double t, const double *p, const double *v);
+/* turning_slip of sliding friction, of which normal forces are the margins (groups,); 0: adaptive steps. */
+void zd_phase_update_turning_slip(const zd_phase_system *self, const zd_settings *settings, const double *margin);
 /* Gap of a one-sided group; and distance of its coordinate from the ends of its range, negative outside: INFINITY for an unbounded shape. */
 double zd_phase_gap(const zd_phase_system *self, int group);
 double zd_phase_range_margin(const zd_phase_system *self, int group);

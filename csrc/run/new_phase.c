@@ -26,6 +26,9 @@ static int enter(const zd_contacts *it)
         of->tie_factor[it->group[k]] = it->factor[k];
         of->has_ties |= it->tie[k] >= 0;
         if (it->row[k].pair) of->direction[2 * it->group[k] + it->component[k]] = it->direction[k];
+        if (it->row[k].pair != 1) continue;
+        const double *W = it->W + (size_t)k * (it->count + 1), between = sqrt(2) * W[1];
+        of->mobility[it->group[k]] = it->row[k].bound[1] * zd_hypotenuse(between, zd_hypotenuse(W[0], W[it->count + 1]));
     }
     return zd_phase_enter(it->run, it->next, 0);
 }

@@ -177,10 +177,7 @@ static void pass_on(zd_run *to, const zd_run *from)
     const zd_held_inputs own = to->held;
     double *scale = to->loop.control.scale;
     const int64_t rank = to->motion.statistics.rank;
-    to->start = from->start;
-    to->phases = from->phases;
-    to->tally = from->tally;
-    to->outcome = from->outcome;
+    to->start = from->start, to->phases = from->phases, to->tally = from->tally, to->outcome = from->outcome;
     to->goal.step = from->goal.step, to->goal.end = from->goal.end;
     to->motion.statistics = from->motion.statistics;
     to->motion.statistics.rank = rank;
@@ -281,6 +278,7 @@ static int begin_margins(zd_run *run)
 {
     zd_phases *self = run->phases;
     zd_phase_system *of = self->present->of;
+    const int own = self->own ? self->own->count : 0;
     int status = zd_phase_update_directions(of, 1, self->at.t, self->at.p, self->at.v);
     if (!status) status = zd_motion_accelerate(&run->motion);
     if (!status) zd_rank_find_multipliers(run->motion.point);
@@ -292,8 +290,9 @@ static int begin_margins(zd_run *run)
         if (margin < rounding) of->bias[g] = rounding - margin;
     }
     if (!status) status = zd_watch_start(&run->watch);
+    zd_phase_update_turning_slip(of, &run->settings, run->watch.before + own);
     /* Events of the user at the same instant do not occur again as their functions leave zero. */
-    for (int i = 0; self->own && i < self->own->count; i++)
+    for (int i = 0; i < own; i++)
         if (self->occurs[i]) run->watch.before[i] = 0;
     return status;
 }
@@ -346,5 +345,6 @@ int zd_phases_check(zd_run *run)
                  "set max_step or a shorter step", group->name, -gap);
         return ZD_BRANCH;
     }
+    zd_phase_update_turning_slip(self->present->of, &run->settings, run->watch.before + own);
     return zd_phase_update_directions(self->present->of, 0, run->stepper.t, run->motion.point->p, run->motion.point->v);
 }

@@ -60,8 +60,9 @@ static int place(zd_resample *self, int64_t sample)
     if (self->run->phases) {
         const double input = saved->input ? *sample_of(saved, saved->input, 1, sample) : 0, t = time_of(saved, sample);
         const signed char *state = saved->state + sample * self->run->phases->full->groups;
-        const int status = find_offsets(self->run->phases, state, t, p, v);
-        return status ? status : zd_phases_place(self->run, state, t, p, v, input);
+        int status = find_offsets(self->run->phases, state, t, p, v);
+        if (!status) status = zd_phases_place(self->run, state, t, p, v, input);
+        return status ? status : zd_phase_update_directions(self->run->phases->present->of, 1, t, p, v);
     }
     if (motion->balance.input && saved->input) stepper->y[motion->rate.size - 1] = *sample_of(saved, saved->input, 1, sample);
     return zd_stepper_set_state(stepper, time_of(saved, sample), p, v);

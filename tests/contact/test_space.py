@@ -82,6 +82,42 @@ def test_point_slides_on_a_slope_in_a_curve(friction, states_seen):
         assert sol.phases[0].t1 == pytest.approx(own.t[-1] + 1e-7 / (G * (friction * np.cos(angle) - np.sin(angle))), abs=1e-6)
 
 
+def particle_on_a_floor(x, y, v=(0.0, 0.0)):
+    """A particle of 1 kg under horizontal forces of time, with friction of 0.3."""
+    m = zd.Mechanism("particle", gravity=(0, 0, -G), dimension=3)
+    body = m.particle("b", 1.0, (0, 0, 0))
+    m.contact("floor", body, m.ground.plane((0, 0, 0), (0, 0, 1)), friction=0.3)
+    m.force("x", body, along=(1, 0, 0), value=x)
+    m.force("y", body, along=(0, 1, 0), value=y)
+    m.start({body.velocity: (*v, 0.0)})
+    return m
+
+
+@pytest.mark.parametrize("method", ["rk4", "heun"])
+def test_fixed_steps_where_slip_begins(method):
+    """A force 10 t that turns by 3 rad/s: the slip begins with it where it is 0.3 g, and slowly."""
+    def push(t):
+        return 10 * t * np.array([np.cos(3 * t), np.sin(3 * t)])
+
+    def equations(t, y):
+        return [*y[2:], *(push(t) - 0.3 * G * y[2:] / np.hypot(*y[2:]))]
+    begin = 0.03 * G
+    own = solve_ivp(equations, (begin, 0.8), [0, 0, *(1e-9 * push(begin))], method="Radau", rtol=1e-11, atol=1e-13)
+    m = particle_on_a_floor(lambda t: 10 * t * np.cos(3 * t), lambda t: 10 * t * np.sin(3 * t))
+    sol = zd.simulate(m, 0.8, step=1e-3, integrator=method)
+    assert states(sol) == [("sticking",), ("sliding",)]
+    assert np.abs(sol["b.position"][-1][:2] - own.y[:2, -1]).max() < 1e-6
+
+
+@pytest.mark.parametrize("settings", [{"rtol": 1e-9, "atol": 1e-12}, {"step": 0.01}])
+def test_states_between_samples_where_slip_has_turned(settings):
+    m = particle_on_a_floor(lambda t: 6 * np.cos(2 * t), lambda t: 6 * np.sin(2 * t), (2.0, 0.0))
+    times = [0.2345, 1.1111, 1.4987]
+    sol, saved = zd.simulate(m, 1.5, **settings), zd.simulate(m, 1.5, t_eval=times, **settings)
+    assert sol["b.velocity"][-1][:2] @ sol["b.velocity"][0][:2] < 0
+    assert np.array_equal([sol.at(t)["b.position"] for t in times], saved["b.position"])
+
+
 @pytest.mark.parametrize("feet", [3, 4])
 def test_feet_share_friction_up_to_its_whole_bound(feet):
     for tangent, holds in ((0.2999, True), (0.31, False)):
