@@ -61,11 +61,6 @@ static inline int zd_candidate_row(const zd_contacts *self, int k)
     return self->phases->full->group[self->group[k]].first + self->component[k];
 }
 static inline const zd_group *zd_candidate_group(const zd_contacts *self, int k) { return self->phases->full->group + self->group[k]; }
-/* Unit of the gap of a group: the characteristic length, or that of the group, as 1 rad */
-static inline double zd_group_scale(const zd_phases *phases, const zd_group *group)
-{
-    return group->scale > 0 ? group->scale : phases->length;
-}
 /* Normal velocity, m/s or rad/s, below which a contact that is pressed together stays closed */
 static inline double zd_rest_speed(const zd_contacts *self, int k)
 {

@@ -12,8 +12,8 @@
 #include "../registry.h"
 
 static const double SAME_INSTANT = 1e-13;   /* time between two events, relative to the time, that is rounding */
-static const double PASSED_GAP = 1e-6;      /* gap beyond a contact, relative to the characteristic length, that is beyond rounding */
-static const double MARGIN_ROUNDING = 1e-15;    /* gap, relative to the characteristic length, that is rounding */
+static const double PASSED_GAP = 1e-6;      /* gap beyond a contact, relative to its scale, that is beyond rounding */
+static const double MARGIN_ROUNDING = 1e-15;    /* gap, relative to its scale, that is rounding */
 
 /* ---- creation ---- */
 
@@ -164,7 +164,7 @@ void zd_phases_save_state(zd_run *run)
     zd_copy_all(motion->system.nv, motion->point->v, self->at.v);
     self->input = zd_motion_input(motion);
     const zd_watch *watch = &run->watch;
-    for (int i = 0; self->own && i < self->own->count; i++) self->occurs[i] = 0;
+    if (self->own) memset(self->occurs, 0, self->own->count * sizeof *self->occurs);
     for (const zd_occurrence *it = watch->occurrence; it < watch->occurrence + watch->occurrences; it++)
         if (self->own && it->event < self->own->count && self->at.t - it->bracket.b <= SAME_INSTANT * fabs(self->at.t))
             self->occurs[it->event] = 1;
@@ -268,8 +268,7 @@ static int start_phase(zd_run *run)
     int status = zd_variables_use_chosen(&run->stepper);
     for (int i = motion->formulation_size; i < motion->rate.size; i++) run->stepper.y[i] = 0;
     if (motion->balance.input) run->stepper.y[motion->rate.size - 1] = self->input;
-    motion->in_run = 1;
-    motion->point->known = 0;
+    motion->in_run = 1, motion->point->known = 0;
     return status ? status : zd_stepper_set_state(&run->stepper, self->at.t, self->at.p, self->at.v);
 }
 
@@ -286,7 +285,8 @@ static int begin_margins(zd_run *run)
     for (int g = 0; !status && g < self->full->groups; g++) {
         double margin;
         status = zd_phase_margin(of, run->motion.point, g, self->at.t, self->at.p, self->at.v, &margin);
-        const double rounding = self->full->group[g].rows == 2 && zd_slides(of->state[g]) ? of->slow_slip : MARGIN_ROUNDING * self->length;
+        const zd_group *group = self->full->group + g;
+        const double rounding = group->rows == 2 && zd_slides(of->state[g]) ? of->slow_slip : MARGIN_ROUNDING * zd_group_scale(self, group);
         if (margin < rounding) of->bias[g] = rounding - margin;
     }
     if (!status) status = zd_watch_start(&run->watch);
@@ -340,7 +340,7 @@ int zd_phases_check(zd_run *run)
     for (int g = 0; g < self->full->groups && !run->watch.ended; g++) {
         const zd_group *group = self->full->group + g;
         const double gap = run->watch.before[own + g];
-        if (group->kind != ZD_ONE_SIDED || self->state[g] != ZD_OPEN || gap > -PASSED_GAP * self->length) continue;
+        if (group->kind != ZD_ONE_SIDED || self->state[g] != ZD_OPEN || gap > -PASSED_GAP * zd_group_scale(self, group)) continue;
         snprintf(run->outcome.message, sizeof run->outcome.message, "a step must not pass contact '%s', and ended %.3g beyond it: "
                  "set max_step or a shorter step", group->name, -gap);
         return ZD_BRANCH;

@@ -35,6 +35,11 @@ struct zd_phases {
     int has_images;         /* true if the state can be saved: what is opened keeps an image */
 };
 
+/* Unit of the gap of a group: the characteristic length, or that of the group, as 1 rad */
+static inline double zd_group_scale(const zd_phases *phases, const zd_group *group)
+{
+    return group->scale > 0 ? group->scale : phases->length;
+}
 /* Phases of a system with groups; the first one is without any contact. NULL without memory. */
 zd_phases *zd_phases_create(const zd_system *full, const zd_settings *settings);
 void zd_phases_free(zd_run *run);

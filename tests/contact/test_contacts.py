@@ -109,6 +109,20 @@ def test_a_pendulum_rebounds_from_a_wall_at_multiples_of_half_its_period():
     assert sol[pin.angle].min() > -1e-12
 
 
+@pytest.mark.parametrize("length", [1e-3, 1.0, 1e3])
+def test_a_pendulum_of_any_size_comes_to_rest_on_its_stop(length):
+    """The bounces are the same ones: speed e^n v, of which those below 1e-6 rad/s are omitted."""
+    m = zd.Mechanism("pendulum", gravity=(0, -G * length))
+    rod = m.link("rod", (0, 0), (length, 0), mass=1.0)
+    pin = m.revolute("pin", m.ground, rod.start)
+    m.stop("stop", pin.angle, lower=-0.1, restitution=0.5)
+    sol = zd.simulate(m, 0.5, **FINE)
+    bounces = np.log(np.sqrt(3 * G * np.sin(0.1)) / 1e-6) / np.log(2)
+    assert abs(len(sol.impacts) - bounces) <= 2
+    assert sol.phases[-1].state == {"stop": "closed"}
+    assert sol[pin.angle][-1] == pytest.approx(-0.1, abs=1e-14)
+
+
 def test_a_rocking_block_loses_what_housner_says_and_stops():
     m, half, height = rocking_block()
     sol = zd.simulate(m, 4.0, **FINE)
