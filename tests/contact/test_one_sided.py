@@ -112,12 +112,21 @@ def test_gaps_stand_beside_constraints_and_follow_time():
     assert after[0] + 0.1 == pytest.approx(-(before[0] + 0.1), rel=1e-9)
 
 
+def with_speed(one_sided):
+    x, vx = sp.symbols("x vx")
+    return zd.symbolic([x], speeds=[vx], kinetic=vx**2, p0=[1], one_sided=one_sided(x, vx))
+
+
 def test_wrong_arguments_are_named():
     for make, said in [(lambda: zd.OneSided(0, restitution=2), "restitution"), (lambda: zd.OneSided(0, friction=0.3), "slip"),
                        (lambda: zd.OneSided(0, slip=0, friction=(0.2, 0.3)), "static"),
                        (lambda: zd.System(1, mass=[[1.0]], one_sided={"a": 1}), "one_sided"),
                        (lambda: zd.System(1, mass=[[1.0]], one_sided={"a": zd.OneSided(1.0)}), "callables"),
                        (lambda: zd.System(1, mass=[[1.0]], jacobian=lambda p: p, constraints=lambda p: p,
-                                          one_sided={"a": zd.OneSided(lambda p: p[0])}), "jacobian")]:
+                                          one_sided={"a": zd.OneSided(lambda p: p[0])}), "jacobian"),
+                       (lambda: zd.System(["x"], mass=[[1.0]], one_sided={"x": zd.OneSided(lambda p: p[0])}), "has 'x'"),
+                       (lambda: with_speed(lambda x, _: {"vx": zd.OneSided(x)}), "has 'vx'"),
+                       (lambda: with_speed(lambda x, vx: {"a": zd.OneSided(x, slip=vx), "a.slip": zd.OneSided(x)}), "a.slip"),
+                       (lambda: with_speed(lambda x, vx: {"a": zd.OneSided(x, slip=vx**2)}), "'a.slip' must be linear")]:
         with pytest.raises((ValueError, TypeError), match=said):
             make()

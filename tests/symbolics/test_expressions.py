@@ -161,7 +161,7 @@ REFUSED = [
     ({"force": [1, 2]}, "force must have 1 entries, one for each velocity, not 2"),
     ({"force": {U: 1}}, "force must be given for velocities: u\\(t\\) is not one"),
     ({"constraints": {"stop": Q.diff(T)}}, "constraint 'stop' must not depend on velocities: take nonholonomic"),
-    ({"nonholonomic": {"slip": Q.diff(T) ** 2}}, "constraint 'slip' is not linear in the velocities"),
+    ({"nonholonomic": {"slip": Q.diff(T) ** 2}}, "constraint 'slip' must be linear in the velocities"),
     ({"parameters": {A: 1.0, "a": 2.0}}, "there are two parameters named 'a'"),
     ({"parameters": {A: "heavy"}}, "parameter 'a' must be a real number, not 'heavy'"),
     ({"parameters": {Q: 1.0}}, "parameters must be symbols or names, not q\\(t\\)"),

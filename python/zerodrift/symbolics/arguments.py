@@ -206,7 +206,7 @@ class Definition:
         nv = len(self.speeds)
         for place, node in enumerate(terms.get("C", ())):
             if node.stage >= MOVING:
-                raise WrongValue(f"constraint {self.constraint_names[place // nv]!r} is not linear in the velocities",
+                raise WrongValue(f"constraint {self.constraint_names[place // nv]!r} must be linear in the velocities",
                                  "expression")
 
     def drawing(self, reader: Reader) -> list[list[Node]]:

@@ -142,8 +142,9 @@ def symbolic(
                             values, time, (mass, bias), points)
     with Progress(name, progress) as say:
         code = _code(definition, say)
+        groups = switched(gaps, (*code.coordinates, *code.velocities), *code.sizes[2:])
         return SymbolicSystem(code, definition.values, units, p0, v0, name, say, definition.named(quaternions),
-                              inputs=[str(each) for each in inputs], groups=switched(gaps, *code.sizes[2:]))
+                              inputs=[str(each) for each in inputs], groups=groups)
 
 
 def _followed(word: str, given: Any, more: Mapping[str, Any]) -> Any:

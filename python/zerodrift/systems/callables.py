@@ -142,7 +142,7 @@ class System(BaseSystem):
         self._core.given_jacobian = "jacobian" in functions
         self.constraints = tuple(Variable(f"constraint{i}", "") for i in range(self.m))
         self.v0 = None if v0 is None else checks.frozen(checks.vector("v0", v0, self.nv))
-        groups = switched(one_sided, self.mh, self.mn)
+        groups = switched(one_sided, [each.name for each in (*self.coordinates, *self.velocities)], self.mh, self.mn)
         self._groups = gateway.switch(self._core, groups)
         if groups:
             rows = {group.first: f"{group.name}.slip" if group.normal else group.name for group in groups}

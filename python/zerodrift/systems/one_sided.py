@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -84,9 +84,16 @@ def checked(given: Mapping[str, OneSided] | None) -> dict[str, OneSided]:
     return {str(name): each for name, each in found.items()}
 
 
-def switched(given: Mapping[str, OneSided], mh: int, mn: int) -> list[Switched]:
-    """Groups of a system whose last holonomic constraints, of mh, are the gaps, and whose last nonholonomic ones, of mn, slip."""
+def switched(given: Mapping[str, OneSided], variables: Sequence[str], mh: int, mn: int) -> list[Switched]:
+    """Groups of a system whose last holonomic constraints, of mh, are the gaps, and whose last nonholonomic ones, of mn, slip.
+
+    `variables` : names of its coordinates and velocities.
+    """
     slips = [name for name, each in given.items() if each.slip is not None]
+    names = [*variables, *given, *(f"{name}.slip" for name in slips)]
+    if twice := [name for name in names[len(variables):] if names.count(name) > 1]:
+        raise WrongValue("one_sided must have other names than the coordinates, the velocities and the slip of each other, and "
+                         f"has {twice[0]!r}", "duplicate-name")
     groups = [Switched(name, "one-sided", mh - len(given) + i, 0, float(each.restitution), (0.0, 0.0))
               for i, (name, each) in enumerate(given.items())]
     return groups + [Switched(name, "friction", mh + mn - len(slips) + i, 1 + list(given).index(name), 0.0,
