@@ -37,6 +37,11 @@ typedef struct zd_lane_search {
     int is_at_end;          /* 1: the lane has reached it, and the samples before are saved */
 } zd_lane_search;
 
+typedef struct zd_lane_gaps {   /* gaps of contacts and their rates, (groups,) */
+    double *gap, *rate;
+    double number;          /* number of the step at whose end they are; -1: none */
+} zd_lane_gaps;
+
 typedef struct zd_lane_run {    /* state of the run in a lane */
     int64_t number;         /* index in the batch; -1: none */
     int64_t samples;        /* number of samples saved */
@@ -47,6 +52,7 @@ typedef struct zd_lane_run {    /* state of the run in a lane */
     double *C;              /* (m, nv): in characteristic scales, at the end of the step */
     double number_of_C;     /* number of the step at whose end C was evaluated; -1: none */
     zd_lane_search search;  /* event location */
+    zd_lane_gaps gaps, spare_gaps;      /* at the end of the step */
     zd_lane_energy of_energy;
     int is_off;             /* 1: a check found an energy error that deserves a warning */
 } zd_lane_run;
@@ -55,7 +61,8 @@ typedef struct zd_lane_group {
     const zd_batch *batch;
     const zd_single_run *own;
     const zd_lane_functions *functions;
-    zd_run *run;            /* run that evaluates starts and checks */
+    zd_system *system;      /* system of that run; the data of lanes are set here where constraints switch */
+    zd_run *run;            /* run that evaluates starts and checks; it stays in the phase without any group */
     void *start;            /* its memory for starts */
     zd_lanes lanes;
     zd_lane_run run_of[ZD_MAX_LANES];
@@ -112,6 +119,12 @@ void zd_lane_group_locate(zd_lane_group *self);
 /* Sets the state of the lane to that at the event that ends its run. */
 void zd_lane_group_go_to_end(zd_lane_group *self, int lane);
 
+/* lane_contacts.c: 1 if no contact can close in the last step of a lane, and there is no other event. */
+int zd_lane_contacts_stay_open(zd_lane_group *self, int lane);
+/* Lets a lane leave if the event that changes its sign is that of a contact; returns 1 if so. */
+int zd_lane_contact_leaves(zd_lane_group *self, int lane);
+zd_lane_gaps zd_lane_gaps_create(zd_arena *arena, int groups);
+
 /* lane_actions.c: number of the occurrence of the event that ends the run; the next one, if it acts. */
 int64_t zd_lane_last_of(const zd_lane_group *self, const zd_lane_run *run, int event);
 /* Sets inputs in lanes that are at an event which acts, and lets them go on. */
@@ -119,6 +132,8 @@ void zd_lane_group_act(zd_lane_group *self);
 
 /* Copies the state y of a lane to p, v. */
 void zd_lane_group_gather(const zd_lane_group *self, int lane, const double *y);
+/* Data of a system with these numbers, for functions of the checking run; and with those of a lane. */
+const void *zd_lane_group_data_of(const zd_lane_group *self, const void *numbers);
 const void *zd_lane_group_data(const zd_lane_group *self, int lane);
 
 static inline double zd_lane_number(const zd_lanes *self, const double *numbers, int64_t i, int lane)
@@ -135,6 +150,12 @@ static inline void zd_lane_store(const zd_lanes *self, int lane, int64_t count, 
 static inline void zd_lane_set(const zd_lanes *self, double *numbers, int64_t i, int lane, double value)
 {
     numbers[i * self->lanes + lane] = value;
+}
+
+/* Number of the user's events, which come before those of contacts. */
+static inline int zd_lane_group_own_events(const zd_lane_group *self)
+{
+    return self->batch->settings->events ? self->batch->settings->events->count : 0;
 }
 
 static inline int zd_lane_has_run(const zd_lane_group *self, int lane)

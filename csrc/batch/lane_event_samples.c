@@ -25,7 +25,11 @@ zd_lane_search zd_lane_search_create(zd_arena *arena, const zd_lanes *lanes)
 double zd_lane_group_evaluate(zd_lane_group *self, int lane, int event, double t)
 {
     double value = 0;
-    if (zd_read_event(&self->reader, zd_lane_group_data(self, lane), event, t, self->p, self->v, &value)) self->lanes.leaves[lane] = 1;
+    const zd_point *point = self->run->motion.point;
+    const void *data = zd_lane_group_data(self, lane);
+    const int own = zd_lane_group_own_events(self);
+    if (event < own ? zd_read_event(&self->reader, data, event, t, self->p, self->v, &value)
+                    : zd_phase_margin(point->phase, point, event - own, t, self->p, self->v, &value)) self->lanes.leaves[lane] = 1;
     return value;
 }
 

@@ -77,7 +77,7 @@ static void note_located(zd_lane_group *self, int lane)
     zd_lane_search *search = &run->search;
     double *b = &search->occurrence[search->occurrences - 1].bracket.b;
     const int64_t number = *zd_event_samples_count(self->batch, run->number, search->event) + ++search->number;
-    const int is_last = search->is_cut ? zd_acts(self->batch->settings->events, search->event)
+    const int is_last = search->is_cut ? zd_acts(self->run->settings.events, search->event)
                                        : number == zd_lane_last_of(self, run, search->event);
     search->point++;
     if (is_last && zd_is_same_instant(*b, search->end, resolution_of(&self->lanes, lane))) *b = search->end;
@@ -123,7 +123,7 @@ static int find_change(const zd_lane_group *self, zd_lane_run *run)
 {
     zd_lane_search *search = &run->search;
     const zd_zeros *zeros = &search->zeros[search->event];
-    const int direction = self->batch->settings->events->direction[search->event];
+    const int direction = self->run->settings.events->direction[search->event];
     const double *g = zeros->g;
     while (search->point < zeros->count && !zd_passes_zero(g[search->point - 1], g[search->point], direction)) search->point++;
     return search->point < zeros->count && search->number < max_samples_of(self, run);
@@ -136,6 +136,7 @@ static void locate_from(zd_lane_group *self, int lane)
     zd_lane_search *search = &self->run_of[lane].search;
     for (; search->event < lanes->events; search->event++, search->point = 1, search->number = 0) {
         while (find_change(self, &self->run_of[lane])) {
+            if (zd_lane_contact_leaves(self, lane)) return;
             const int k = search->point;
             zd_occurrence *it = &search->occurrence[search->occurrences++];
             *it = (zd_occurrence){search->event, k, bracket_of(lanes, search, lane, k - 1, k)};
@@ -187,7 +188,7 @@ static void find_state(zd_lane_group *self, int lane)
     mix(self, lane, it.b, run->search.mixed);
     zd_event_samples found = {self->batch, run->number};
     zd_event_samples_add(&found, occurrence->event, located->b, self->p, self->v);
-    const zd_events *events = self->batch->settings->events;
+    const zd_events *events = self->run->settings.events;
     const int is_last = *zd_event_samples_count(self->batch, run->number, occurrence->event) == events->terminal[occurrence->event];
     run->search.acts[occurrence->event] = zd_acts(events, occurrence->event);
     if (is_last) run->search.ended = occurrence->event + 1;
@@ -340,7 +341,7 @@ void zd_lane_group_locate(zd_lane_group *self)
         const int has = self->run_of[lane].number >= 0 && lanes->has_event[lane] != 0 && lanes->leaves[lane] == 0;
         self->run_of[lane].search.stage = ZD_FOUND_ALL;
         lanes->has_event[lane] = 0;
-        if (has) begin(self, lane);
+        if (has && !zd_lane_contacts_stay_open(self, lane)) begin(self, lane);
     }
     for (int any = 1; any;) {
         any = 0;

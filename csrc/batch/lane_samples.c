@@ -7,6 +7,19 @@
 
 static int64_t entries_of_p(const zd_lane_group *self) { return self->lanes.nq; }
 
+/* Multipliers of all constraints; those of groups, which do not act, are zero. */
+static void save_multipliers(const zd_lane_group *self, int lane, int64_t sample)
+{
+    const zd_lanes *lanes = &self->lanes;
+    const zd_point *point = self->run->motion.point;
+    double *to = self->batch->multipliers + sample * zd_point_constraints(point);
+    if (!point->phase) zd_lane_store(lanes, lane, lanes->m, lanes->lambda_sample, to);
+    for (int k = 0; point->phase && k < zd_point_constraints(point); k++) {
+        const int row = point->phase->row_here[k];
+        to[k] = row < 0 ? 0 : zd_lane_number(lanes, lanes->lambda_sample, row, lane);
+    }
+}
+
 /* Saves y_sample at t_sample as a sample of the run. */
 static void save_sample(zd_lane_group *self, int lane)
 {
@@ -23,7 +36,7 @@ static void save_sample(zd_lane_group *self, int lane)
     if (batch->energy_skipped) batch->energy_skipped[sample] = run->of_energy.skipped_since_sample;
     lanes->peak_iterations[lane] = 0;
     run->of_energy.skipped_since_sample = 0;
-    if (batch->multipliers) zd_lane_store(lanes, lane, lanes->m, lanes->lambda_sample, batch->multipliers + sample * lanes->m);
+    if (batch->multipliers) save_multipliers(self, lane, sample);
 }
 
 static double next_time(const zd_lane_group *self, const zd_lane_run *run)

@@ -12,11 +12,19 @@ void zd_lane_group_gather(const zd_lane_group *self, int lane, const double *y)
     for (int i = 0; i < lanes->nv; i++) self->v[i] = zd_lane_number(lanes, y, lanes->nq + i, lane);
 }
 
+const void *zd_lane_group_data_of(const zd_lane_group *self, const void *numbers)
+{
+    if (!self->run->phases) return numbers;
+    if (self->system->data != numbers || self->numbers) zd_phase_forget(self->run->motion.point->phase);
+    self->system->data = numbers;
+    return self->run->motion.system.data;
+}
+
 const void *zd_lane_group_data(const zd_lane_group *self, int lane)
 {
-    if (!self->numbers) return zd_single_run_data(self->batch, self->run_of[lane].number);
+    if (!self->numbers) return zd_lane_group_data_of(self, zd_single_run_data(self->batch, self->run_of[lane].number));
     zd_lane_store(&self->lanes, lane, self->batch->doubles, self->lanes.data, self->numbers);
-    return self->numbers;
+    return zd_lane_group_data_of(self, self->numbers);
 }
 
 /* C (mh, nv) in characteristic scales at y; returns 0 if the evaluation failed. */
@@ -63,7 +71,7 @@ void zd_lane_group_note_start(zd_lane_group *self, int lane)
 {
     zd_motion *motion = &self->run->motion;
     zd_lane_run *run = &self->run_of[lane];
-    run->number_of_C = run->search.number_of_now = -1;
+    run->number_of_C = run->search.number_of_now = run->gaps.number = -1;
     run->search.ended = run->search.is_cut = run->search.is_at_end = run->is_complete = run->is_off = 0;
     run->kinetic = run->kinetic_at_start = zd_has_energy(&motion->system) ? zd_point_kinetic(motion->point) : 0;
     run->energy = motion->balance.initial;

@@ -2,7 +2,7 @@
 #include "batch.h"
 
 #include "../registry.h"
-#include "../run/run.h"
+#include "../run/phases.h"
 #include "group.h"
 
 /* ---- applicability of lanes ---- */
@@ -17,8 +17,8 @@ static int are_known(const zd_events *events, const zd_system *system)
 int zd_lanes_serve_settings(const zd_system *system, const zd_settings *settings)
 {
     const int meets_breaks = (system->breaks || system->switches) && settings->steps == ZD_ADAPTIVE_STEPS;
-    return !system->groups && !system->quaternions && !meets_breaks && !settings->outputs && !settings->given_jacobian
-        && !(settings->max_move > 0) && system->mh + system->mn <= system->nv && zd_takes_closed_form(settings)
+    return !system->quaternions && !meets_breaks && !settings->outputs && !settings->given_jacobian && !(settings->max_move > 0)
+        && (system->groups || system->mh + system->mn <= system->nv) && zd_takes_closed_form(settings)
         && !zd_takes_embeddings(settings) && zd_integrator_of(settings->integrator)->create == zd_runge_kutta_create;
 }
 
@@ -53,14 +53,14 @@ int zd_lanes_serve_run(const zd_run *run)
 
 /* ---- memory ---- */
 
-static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_single_run *own, zd_run *run)
+static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_single_run *own, zd_system *full, zd_run *run)
 {
-    const zd_system *system = batch->system;
+    const zd_system *system = &run->motion.system;
     const size_t size_of_C = zd_constraints(system) * system->nv;
     const zd_closed_form *closed_form = NULL;
     zd_lane_group group = {
-        .batch = batch, .own = own, .run = run,
-        .functions = zd_lane_functions_of(system, batch->settings->vector, &closed_form),
+        .batch = batch, .own = own, .system = full, .run = run,
+        .functions = zd_lane_functions_of(full, batch->settings->vector, &closed_form),
         .start = zd_arena_bytes(arena, zd_run_start_memory(run)),
         .p = zd_arena_doubles(arena, system->nq),
         .v = zd_arena_doubles(arena, system->nv),
@@ -75,6 +75,7 @@ static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_si
             .number = -1,
             .C = zd_arena_doubles(arena, size_of_C),
             .search = zd_lane_search_create(arena, &group.lanes),
+            .gaps = zd_lane_gaps_create(arena, full->groups), .spare_gaps = zd_lane_gaps_create(arena, full->groups),
         };
     return group;
 }
@@ -89,6 +90,19 @@ static int start_of(const zd_batch *batch, const zd_single_run *own, int64_t num
     return zd_single_run_start(batch, &system, own, number);
 }
 
+/* True if no contact touches, or is behind a shape, at the start of the run. */
+static int is_apart(const zd_lane_group *self)
+{
+    const zd_run *run = self->run;
+    const zd_point *point = run->motion.point;
+    int is = 1;
+    for (int g = 0; run->phases && is && g < self->system->groups; g++) {
+        double margin;
+        is = !zd_phase_margin(point->phase, point, g, point->t, point->p, point->v, &margin) && margin > ZD_TOUCHING * run->phases->length;
+    }
+    return is;
+}
+
 /* Finds the next run that can begin in a lane; others are made individually. Returns 0 if there is none. */
 static int find_next(zd_lane_group *self)
 {
@@ -96,8 +110,9 @@ static int find_next(zd_lane_group *self)
     while (self->next < batch->runs && !zd_batch_is_stopped(batch)) {
         const int64_t number = self->next++;
         int status = start_of(batch, self->own, number);
-        if (!status) status = zd_run_start_elsewhere(self->run, self->start, zd_single_run_data(batch, number), self->own->p, self->own->v);
-        if (!status) return 1;
+        const void *data = zd_lane_group_data_of(self, zd_single_run_data(batch, number));
+        if (!status) status = zd_run_start_elsewhere(self->run, self->start, data, self->own->p, self->own->v);
+        if (!status && is_apart(self)) return 1;
         zd_single_run_execute(batch, self->own, number);
     }
     return 0;
@@ -231,26 +246,28 @@ static void run_all(zd_lane_group *self)
     }
 }
 
-/* Creates the first run that can be, to evaluate starts; those before it are made individually, and fail with their message. */
-static zd_run *create_first(const zd_batch *batch, const zd_single_run *own, int64_t *first)
+/* Creates the first run that can be, to evaluate starts; those before it are made individually, and fail with their message, or begin
+ * with contacts that are closed. */
+static zd_run *create_first(const zd_batch *batch, const zd_single_run *own, zd_system *system, int64_t *first)
 {
     for (*first = 0; *first < batch->runs && !zd_batch_is_stopped(batch); ++*first) {
-        const zd_system system = zd_single_run_system(batch, *first);
-        int status = zd_single_run_start(batch, &system, own, *first);
-        zd_run *run = status ? NULL : zd_run_create(&system, batch->settings, own->p, own->v, &status, zd_message_of(batch, *first),
+        *system = zd_single_run_system(batch, *first);
+        int status = zd_single_run_start(batch, system, own, *first);
+        zd_run *run = status ? NULL : zd_run_create(system, batch->settings, own->p, own->v, &status, zd_message_of(batch, *first),
                                                     batch->message_size);
-        if (run) return run;
+        if (run && (!run->phases || zd_lanes_serve_run(run))) return run;
+        zd_run_free(run);
         zd_single_run_execute(batch, own, *first);
     }
     return NULL;
 }
 
-static int run_in_lanes(const zd_batch *batch, const zd_single_run *own, zd_run *run, int64_t first)
+static int run_in_lanes(const zd_batch *batch, const zd_single_run *own, zd_system *system, zd_run *run, int64_t first)
 {
     zd_arena arena = {0};
-    lay_out(&arena, batch, own, run);
+    lay_out(&arena, batch, own, system, run);
     if (!zd_arena_allocate(&arena)) return ZD_NO_MEMORY;
-    zd_lane_group group = lay_out(&arena, batch, own, run);
+    zd_lane_group group = lay_out(&arena, batch, own, system, run);
     group.next = first;
     run_all(&group);
     zd_release(arena.base);
@@ -260,10 +277,11 @@ static int run_in_lanes(const zd_batch *batch, const zd_single_run *own, zd_run 
 int zd_run_side_by_side(const zd_batch *batch, const zd_single_run *own)
 {
     int64_t first;
-    zd_run *run = create_first(batch, own, &first);
+    zd_system system;
+    zd_run *run = create_first(batch, own, &system, &first);
     if (!run) return ZD_DONE;
     int status = ZD_DONE;
-    if (zd_lanes_serve_run(run)) status = run_in_lanes(batch, own, run, first);
+    if (zd_lanes_serve_run(run)) status = run_in_lanes(batch, own, &system, run, first);
     else
         for (int64_t i = first; i < batch->runs && !zd_batch_is_stopped(batch); i++) zd_single_run_execute(batch, own, i);
     zd_run_free(run);

@@ -110,9 +110,9 @@ static void advance(const zd_batch *batch, zd_run *run, zd_record *record, int64
     int status = ZD_PAUSED;
     while (status == ZD_PAUSED && !zd_batch_is_stopped(batch)) status = zd_run_advance(run, record, SLICE);
     if (batch->seconds) batch->seconds[number] = zd_seconds_now() - begin;
-    batch->way[number] = ZD_BY_ITSELF;
+    batch->way[number] = status == ZD_FULL ? ZD_UNUSUAL : ZD_BY_ITSELF;     /* changes of phase have samples of their own */
     batch->samples[number] = record->samples;
-    batch->status[number] = status;
+    batch->status[number] = status = status == ZD_FULL ? ZD_DONE : status;
     batch->statistics[number] = *zd_run_statistics(run);
     batch->kinetic[number] = zd_run_kinetic(run);
     batch->energy_error[number] = zd_run_energy_error(run);

@@ -1,4 +1,4 @@
-/* Creation of a phase: its rows, the structure that they have, and the loads that its friction reads. */
+/* Creation of a phase: its rows, the structure that they have, the loads that its friction reads, and its closed-form functions. */
 #include <string.h>
 
 #include "phase_system.h"
@@ -117,6 +117,69 @@ static void create_reading(zd_arena *arena, zd_phase_system *self)
     if (arena->base) fill_reading(self);
 }
 
+/* ---- closed-form functions ----
+ *
+ * Those of the full system eliminate the constraints of no group. A phase in which no group acts has them, called with their own data. */
+
+static const void *data_of(const void *data) { return ((const zd_phase_system *)data)->full->data; }
+
+static int accelerate(const zd_elimination *self, const void *data, const double *inputs, const double *t, const double *p, const double *v,
+                      const double *added, double *pdot, double *vdot, double *lambda, double *power, double *pivots)
+{
+    const zd_elimination *of = self->program;
+    return of->accelerate(of, data_of(data), inputs, t, p, v, added, pdot, vdot, lambda, power, pivots);
+}
+
+static int correct(const zd_elimination *self, const void *data, const double *inputs, const double *t, const double *p, const double *v,
+                   double *Phi, double *dp, double *dv)
+{
+    const zd_elimination *of = self->program;
+    return of->correct(of, data_of(data), inputs, t, p, v, Phi, dp, dv);
+}
+
+static int finish(const zd_elimination *self, const void *data, const double *inputs, const double *t, const double *p, double *v,
+                  const double *allowed, double *Phi, double *dp, double *pdot, double *vdot, double *lambda, double *power, double *pivots)
+{
+    const zd_elimination *of = self->program;
+    return of->finish(of, data_of(data), inputs, t, p, v, allowed, Phi, dp, pdot, vdot, lambda, power, pivots);
+}
+
+static int embed(const zd_elimination *self, const void *data, const double *inputs, const double *t, const double *p, double *v,
+                 const double *added, const double *allowed, double *Phi, double *dp, double *D, double *pdot, double *vdot, double *lambda,
+                 double *power, double *pivots)
+{
+    const zd_elimination *of = self->program;
+    return of->embed(of, data_of(data), inputs, t, p, v, added, allowed, Phi, dp, D, pdot, vdot, lambda, power, pivots);
+}
+
+static const zd_elimination *create_eliminations(zd_arena *arena, int count, const zd_elimination *of)
+{
+    zd_elimination *here = zd_arena_bytes(arena, count * sizeof *here);
+    for (int i = 0; here && i < count; i++) {
+        here[i] = of[i];
+        here[i].program = of + i;
+        if (of[i].accelerate) here[i].accelerate = accelerate;
+        if (of[i].correct) here[i].correct = correct;
+        if (of[i].finish) here[i].finish = finish;
+        if (of[i].embed) here[i].embed = embed;
+    }
+    return here;
+}
+
+static void create_closed_forms(zd_arena *arena, zd_phase_system *self)
+{
+    const zd_system *full = self->full;
+    self->closed_form = zd_arena_bytes(arena, full->closed_forms * sizeof *self->closed_form);
+    for (int i = 0; i < full->closed_forms; i++) {
+        zd_closed_form it = full->closed_form[i];
+        if (it.lanes != 1) continue;
+        it.order = create_eliminations(arena, it.orders, it.order);
+        it.embedding = create_eliminations(arena, it.embeddings, it.embedding);
+        if (self->closed_form) self->closed_form[self->closed_forms++] = it;
+    }
+    if (self->slidings || zd_constraints(&self->system) > zd_own_constraints(full)) self->closed_forms = 0;
+}
+
 zd_phase_system *zd_phase_system_create(zd_arena *arena, const zd_system *full, const signed char *state)
 {
     const int m = zd_constraints(full), groups = full->groups;
@@ -151,6 +214,7 @@ zd_phase_system *zd_phase_system_create(zd_arena *arena, const zd_system *full, 
     }
     create_structure(arena, self);
     create_reading(arena, self);
+    create_closed_forms(arena, self);
     self->measure = zd_arena_bytes(arena, (zd_own_measures(full) + m) * sizeof *self->measure);
     if (arena->base) zd_phase_pass_functions(self);
     return here;

@@ -342,8 +342,8 @@ void zd_phase_pass_functions(zd_phase_system *self)
     system->groups = 0;
     system->embed = NULL;
     system->independent = NULL;
-    system->closed_form = NULL;
-    system->closed_forms = 0;
+    system->closed_form = self->closed_forms ? self->closed_form : NULL;
+    system->closed_forms = self->closed_forms;
     system->series = NULL;
     system->jacobian = NULL;
     system->residuals = NULL;

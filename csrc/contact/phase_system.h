@@ -80,6 +80,8 @@ struct zd_phase_system {
     double *bias;           /* (groups,): added to each margin, which rounding may make negative when the phase begins */
     zd_switches switches;
     zd_operations operations;
+    zd_closed_form *closed_form;    /* (closed_forms,) of the full system for single runs, while no group acts */
+    int closed_forms;
     zd_memory *memory;      /* its own, of zd_phase_new() */
 };
 

@@ -3,7 +3,7 @@
 
 const zd_closed_form *zd_closed_form_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit)
 {
-    if (zd_constraints(system) > system->nv || (formulation->update && !formulation->may_have_entries(system))) return NULL;
+    if (zd_own_constraints(system) > system->nv || (formulation->update && !formulation->may_have_entries(system))) return NULL;
     const zd_closed_form *found = NULL;
     for (int i = 0; i < system->closed_forms; i++) {
         const zd_closed_form *closed_form = &system->closed_form[i];

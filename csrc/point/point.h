@@ -56,6 +56,19 @@ void zd_set_identity(const zd_system *system, double *M);
 /* ---- a system and the table of its terms ---- */
 
 static inline int zd_constraints(const zd_system *system) { return system->mh + system->mn; }
+
+/* Number of constraints outside all groups. */
+static inline int zd_own_constraints(const zd_system *system)
+{
+    int own = 0;
+    for (int row = 0; row < zd_constraints(system); row++) {
+        int is_own = 1;
+        for (const zd_group *it = system->group; it < system->group + system->groups; it++)
+            is_own &= row < it->first || row >= it->first + it->rows;
+        own += is_own;
+    }
+    return own;
+}
 static inline int zd_brings_times_A(const zd_system *system) { return system->operations && system->operations->times_A; }
 /* True if pdot = A v with a kinematic matrix A, false if pdot = v. */
 static inline int zd_has_A(const zd_system *system) { return (system->provides & ZD_A) || zd_brings_times_A(system); }

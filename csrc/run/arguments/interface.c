@@ -126,10 +126,10 @@ static int check_operations(const zd_system *system, text message)
                   "diagonal");
 }
 
-/* Checks an order: each constraint is eliminated once, for as many different velocities, in solves numbered from 0. */
+/* Checks an order: each constraint outside all groups is eliminated once, for as many different velocities, in solves numbered from 0. */
 static int is_an_elimination(const zd_system *system, const zd_elimination *order, int embeds)
 {
-    int m = system->mh + system->mn, last = -1;
+    int m = zd_own_constraints(system), last = -1;
     if (!(embeds ? order->embed != NULL : order->accelerate != NULL) || order->solves < 0 || order->solves > m ||
         (order->solves == 0) != (m == 0))
         return 0;
@@ -152,7 +152,7 @@ static int check_orders(const zd_system *system, int set, text message)
         const zd_elimination *order = embeds ? closed_form->embedding + (i - closed_form->orders) : closed_form->order + i;
         if (!is_an_elimination(system, order, embeds))
             return refuse(message, "closed_form: order %d of set %d must eliminate %d rows, each once, for as many of %d velocities", i, set,
-                          system->mh + system->mn, system->nv);
+                          zd_own_constraints(system), system->nv);
     }
     return ZD_DONE;
 }

@@ -211,7 +211,7 @@ def _solution_in_lanes(plan: Plan, batch: Batch, tables: NumberTables, run: int)
     results = again.results()._replace(statistics=gateway.Statistics(*made.statistics[0].tolist()),
                                        largest_kinetic=float(made.kinetic[0]))
     return solution_of_rows(system, span, batch.settings, record, results, time.perf_counter() - begin, int(made.status[0]),
-                            made.messages[0] or "done", None if made.events is None else made.events.of(0))
+                            made.messages[0] or "done", None if made.events is None else made.events.of(0), again.transitions)
 
 
 def _part(plan: Plan, batch: Batch, made: gateway.BatchResults, messages: list[str], doubtful: np.ndarray) -> Part:

@@ -26,7 +26,7 @@ from ..systems.structure import Structure, checked
 from ..systems.variables import quaternion_places, with_units
 from . import rounding_factors
 from .compile import compilers, shared_library
-from .compile.closed_form_library import CLOSED_FORM, ClosedFormFunctions
+from .compile.closed_form_library import CLOSED_FORM, ClosedFormFunctions, without_rows
 from .compile.series_library import JacobianFunctions, PreciseFunctions, SeriesFunctions
 from .emit.program_writer import Expressions, Terms
 from .graph.smoothness import is_plain_program
@@ -89,8 +89,9 @@ class SymbolicSystem(BaseSystem):
         self._set_start(p0, v0)
         self._values = np.array([checks.number(f"parameter {key!r}", parameters[key]) for key in code.parameters])
         is_length = [gateway.is_length(variable) for variable in (*self.coordinates, *self.velocities)]
+        free = without_rows(code.program, code.sizes, {group.first for group in self._switched})
         self._closed_form = closed_form or ClosedFormFunctions(
-            code.program, code.sizes, self._values, self.p0, np.array(is_length), len(self._values) + code.constants,
+            *free, self._values, self.p0, np.array(is_length), len(self._values) + code.constants,
             inputs=[code.parameters.index(name) for name in self._inputs])
         self._series = SeriesFunctions(code.program, code.sizes)
         self._precise = PreciseFunctions(code.program, code.sizes)
@@ -122,8 +123,6 @@ class SymbolicSystem(BaseSystem):
 
     def _closed_form_core(self, vector: str = "baseline", embeds: bool = False) -> gateway.CoreSystem:
         functions, core = self._functions(embeds), self._core
-        if self._groups:
-            return core
         if isinstance(core, ProgramCore):
             return self._with_programs(core, embeds)
         library = functions.library(vector)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import cache, cached_property
 from importlib import metadata
 from pathlib import Path
@@ -23,6 +23,20 @@ from . import shared_library
 LANES = {"baseline": 2, "avx2": 4, "avx512": 8}
 CLOSED_FORM = "zd_symbolic_closed_form"       # symbol of the functions in their library
 NO_COMPILER = "there is no C compiler"      # reason why a system has no closed-form functions
+
+
+def without_rows(program: Any, sizes: tuple[int, int, int, int], rows: Collection[int]) -> tuple[Any, tuple[int, int, int, int]]:
+    """Program and sizes of a system without these constraints, as of contacts that are open."""
+    nq, nv, mh, mn = sizes
+    if not rows or isinstance(program, str):
+        return program, sizes
+    kept, terms = [row for row in range(mh + mn) if row not in rows], dict(program["terms"])
+    for name, width in (("Phi", 1), ("Phi_t", 1), ("xi", 1), ("C", nv)):
+        each = terms.pop(name, [])
+        if found := [entry for row in kept for entry in each[row * width:(row + 1) * width]]:
+            terms[name] = found
+    holonomic = sum(row < mh for row in kept)
+    return program | {"terms": terms}, (nq, nv, holonomic, len(kept) - holonomic)
 
 
 class ClosedFormFunctions:
