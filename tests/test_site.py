@@ -3,6 +3,7 @@
 import contextvars
 import os
 import re
+import runpy
 import subprocess
 import sys
 import time
@@ -91,6 +92,19 @@ def test_pages_need_no_network_and_pictures_have_words(site):
         if "_static" not in written.parts:
             links = re.findall(r'\b(?:href|src)="(?![a-z]+:)([^"#?]+)', page)
             assert [each for each in links if not (written.parent / each).exists()] == [], written.name
+
+
+def test_links_to_the_repository_stand_where_it_is_known(monkeypatch):
+    for package in PACKAGES:
+        pytest.importorskip(package)
+    monkeypatch.setattr(sys, "path", [*sys.path])       # to which it adds its folder
+    found = {}
+    for repository in ("owner/name", ""):
+        monkeypatch.setenv("GITHUB_REPOSITORY", repository)
+        conf = runpy.run_path(str(PAGES / "conf.py"))
+        found[conf["html_baseurl"]] = [each["url"] for each in conf["html_theme_options"]["icon_links"]]
+    known = "https://github.com/owner/name"
+    assert found == {"https://owner.github.io/name/": [known, f"{known}/issues"], "": []}
 
 
 def pages_of(folder):
