@@ -12,6 +12,7 @@ from pathlib import Path
 import boards
 import live
 import matplotlib
+import numpy as np
 from fontTools import subset
 from fontTools.ttLib import TTFont
 
@@ -200,11 +201,12 @@ def films(folder: Path) -> Iterable[tuple[str, Iterable[str]]]:
 
 
 def plotted(sol: zd.Solution) -> list[str]:
-    """The measure that a page plots: what drives the mechanism, otherwise the force of its first joint, or its first coordinate."""
+    """The measure that a page plots: what drives the mechanism, the force of a joint, or a coordinate, the first that changes."""
     names = [name for name in sol.measures if not name.startswith("ground.")]
     driving = [name for name in names if name.endswith(".torque") and sol[name].ndim == 1 and abs(sol[name]).max() > 1e-9]
     forces = [name for name in names if name.endswith(".force")]
-    return [next(iter([*reversed(driving), *forces]), sol.system.coordinates[0].name)]
+    found = [*reversed(driving), *forces, sol.system.coordinates[0].name]
+    return [next((name for name in found if np.ptp(sol[name], axis=0).max() > max(1e-9, 1e-3 * abs(sol[name]).max())), found[0])]
 
 
 TURNING = " The view is turned by dragging beside it, or by Shift with the arrow keys."

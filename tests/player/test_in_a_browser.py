@@ -186,15 +186,28 @@ def test_a_film_that_replaces_another_goes_on_at_its_time(browser, crank, tmp_pa
     assert (found["playing"], found["chosen"]) == (False, "pin")
 
 
+def words_of_graphs(browser, name, sample):
+    return browser.evaluate(f"""(() => {{
+      const words = [], brush = CanvasRenderingContext2D.prototype, fill = brush.fillText;
+      brush.fillText = function (text, ...rest) {{ words.push(text); fill.call(this, text, ...rest); }};
+      zerodrift.show({sample});
+      return words.filter(each => each.includes("{name}"));
+    }})()""")
+
+
+def test_rounding_is_shown_as_zero_beside_a_graph(browser, tmp_path):
+    m = zd.Mechanism("thrown")
+    m.particle("ball", 1.0, at=(1e-12, 0))
+    m.start({"ball.velocity": (5.0, 0.0)})
+    shown(browser, zd.view(zd.simulate(m, 1.0, step=0.1), graphs=["ball.position"]), tmp_path)
+    assert words_of_graphs(browser, "position.x", 0) == ["ball.position.x 0 m"]
+    assert words_of_graphs(browser, "position.x", "zerodrift.film.samples - 1") == ["ball.position.x 5.00 m"]
+
+
 def test_a_graph_that_ends_shows_no_number_after_its_end(browser, crank, tmp_path):
     short = zd.simulate(zd.models.slider_crank(), 1.0, step=0.005)
     shown(browser, zd.view(crank, short, graphs=["crank.angle"], labels=["long", "short"]), tmp_path)
-    found = browser.evaluate("""(() => {
-      const words = [], brush = CanvasRenderingContext2D.prototype, fill = brush.fillText;
-      brush.fillText = function (text, ...rest) { words.push(text); fill.call(this, text, ...rest); };
-      zerodrift.show(zerodrift.film.samples - 1);
-      return words.filter(each => each.includes("crank.angle"));
-    })()""")
+    found = words_of_graphs(browser, "crank.angle", "zerodrift.film.samples - 1")
     assert found[0].endswith(" rad")
     assert found[1:] == ["short crank.angle "]
     assert browser.errors == []

@@ -1,6 +1,7 @@
 /* Graphs over time, with ticks, a zero line, units and a cursor, for films, live views and the drawing board. `picture` has the colours; lines are
  * {name, unit, values}, at `times`, or equally spaced from `from` to `to`. What rests is drawn once for each `key`. */
 const HUES = ["accent", "second", "third", "ink", "grey", "force"], FONT = "11px system-ui, sans-serif";
+const ROUNDING = 1e-9;      // of the heights of a graph
 const shortly = x => x === 0 ? "0" : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-2 ? x.toExponential(2) : x.toPrecision(3);
 const tickOf = x => x === 0 ? "0" : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-3 ? x.toExponential().replace("e+", "e") : String(+x.toPrecision(6));
 const ticksOf = (low, high, most) => {
@@ -27,7 +28,7 @@ const graph = (element, {tones, fit}, lines, {from, to, times = null, now = null
     element.known = known;
     element.drawn = restingGraph(brush, lines, {tones, w, h, from, to, times, log});
   }
-  const {still, area: [left, right, top, low], words} = element.drawn;
+  const {still, area: [left, right, top, low], words, size} = element.drawn;
   brush.clearRect(0, 0, w, h);
   brush.drawImage(still, 0, 0, w, h);
   brush.font = FONT;
@@ -35,7 +36,7 @@ const graph = (element, {tones, fit}, lines, {from, to, times = null, now = null
     const value = log ? Math.max(...Array.from(line.values, Math.abs).filter(Number.isFinite), 0)
       : line.values[Math.round((now === null ? 1 : (now - from) / (to - from || 1)) * (line.values.length - 1))];
     brush.fillStyle = tones[HUES[i % 6]];
-    brush.fillText(line.name + " " + (log ? "\u2264 " : "") + (Number.isFinite(value) ? shortly(value) + " " + line.unit : ""), ...words[i], right - words[i][0]);
+    brush.fillText(line.name + " " + (log ? "\u2264 " : "") + (Number.isFinite(value) ? shortly(Math.abs(value) < size ? 0 : value) + " " + line.unit : ""), ...words[i], right - words[i][0]);
   });
   if (now === null) return;
   const x = left + (right - left) * (now - from) / (to - from || 1);
@@ -87,5 +88,5 @@ const restingGraph = (brush, lines, {tones, w, h, from, to, times, log}) => {
       line(part, tones[HUES[i % 6]], 1.5);
     }
   });
-  return {still, area: [left, right, top, low], words};
+  return {still, area: [left, right, top, low], words, size: log ? 0 : ROUNDING * Math.max(Math.abs(a), Math.abs(b))};
 };
