@@ -215,17 +215,19 @@ def test_labels_are_refused():
 def test_it_has_graphs_paths_forces_and_units(browser, tmp_path):
     """At rest, the graph, the way and the arrow are those of a run's first sample."""
     m = zd.models.four_bar()
-    opened(browser, zd.view(m, live=True, path="C", graphs=["crank.angle", "C.position.y"], forces=["B"]), tmp_path)
+    opened(browser, zd.view(m, live=True, path="C", graphs=["crank.angle", "C.position.y"], forces=["B"],
+                            display={"force": "kN"}), tmp_path)
     browser.evaluate("document.getElementById('play').click()")
     browser.evaluate("document.getElementById('restart').click()")
     browser.until("zerodrift.live.times.length > 0 && zerodrift.live.times[0] === 0")
-    way, y, force, unit = browser.evaluate("""(({paths, arrows, at}) => [paths[0][0], zerodrift.live.graphs[1].values[0],
-        at[arrows[0].to].map(x => x * arrows[0].scale),
+    way, y, force, scale, unit = browser.evaluate("""(({paths, arrows, at}) => [paths[0][0], zerodrift.live.graphs[1].values[0],
+        at[arrows[0].to].map(x => x * arrows[0].scale), [arrows[0].factor, arrows[0].unit],
         document.querySelector("#sliders output").textContent])(zerodrift.scene.layers[0])""")
     sol = zd.simulate(m, 0.01, step=0.001)
     assert way == pytest.approx(sol["C.position"][0].tolist())
     assert y == pytest.approx(way[1])
     assert force == pytest.approx(sol["B.force"][0].tolist(), rel=1e-6)
+    assert scale == [1e-3, "kN"]
     assert unit.endswith(" m")
     assert browser.errors == []
     with refused("wrong-name", "must be measures of the mechanism, not 'C.x'"):

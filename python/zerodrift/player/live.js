@@ -321,7 +321,7 @@ function addSlider({name, kind, least, most, value, unit: unitOf, factor}) {
   document.getElementById("sliders").append(label);
 }
 
-layer.arrows = scene.arrows.map((name) => ({name, at: placeOf(name)}));
+layer.arrows = scene.arrows.map((name) => ({name, at: placeOf(name), ...scene.force}));
 Object.assign(globalThis.zerodrift, {parts, spot: (point) => picture.project(layer.at[point]), at: (point) => { locate(); return picture.place(layer, point); }});
 const packed = scene.core ?? globalThis.zerodriftCore;
 play(live.playing);

@@ -137,6 +137,7 @@ def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None 
     kept = {name: film[name] for name in ("name", "upside", "dimension", "low", "high", "follow", "pin")}
     size = float(np.linalg.norm(np.subtract(film["high"], film["low"])) or 1.0)
     kept |= {"arrow": ARROW * size, "names": wanted.names, "paths": paths, "arrows": arrows,
+             "force": units.shown("N")._asdict(),
              "graphs": [_read(system, variable.name) for variable in graphs]}
     mass = sum(body.mass for body in system._started_tables.written().bodies)
     gravity = float(np.linalg.norm([value for name, value in system.parameters.items() if name.startswith("gravity.")]))
