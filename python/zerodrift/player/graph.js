@@ -1,7 +1,6 @@
 /* Graphs over time, with ticks, a zero line, units and a cursor, for films, live views and the drawing board. `picture` has the colours; lines are
  * {name, unit, values}, at `times`, or equally spaced from `from` to `to`. What rests is drawn once for each `key`. */
 const HUES = ["accent", "second", "third", "ink", "grey", "force"], FONT = "11px system-ui, sans-serif";
-const ROUNDING = 1e-9;      // of the heights of a graph
 const shortly = x => x === 0 ? "0" : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-2 ? x.toExponential(2) : x.toPrecision(3);
 const tickOf = x => x === 0 ? "0" : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-3 ? x.toExponential().replace("e+", "e") : String(+x.toPrecision(6));
 const ticksOf = (low, high, most) => {
@@ -88,5 +87,5 @@ const restingGraph = (brush, lines, {tones, w, h, from, to, times, log}) => {
       line(part, tones[HUES[i % 6]], 1.5);
     }
   });
-  return {still, area: [left, right, top, low], words, size: log ? 0 : ROUNDING * Math.max(Math.abs(a), Math.abs(b))};
+  return {still, area: [left, right, top, low], words, size: log ? 0 : 1e-9 * Math.max(b, -a)};      // below it is rounding
 };

@@ -41,7 +41,7 @@ POLICY = ("default-src 'none'; script-src 'self' 'unsafe-inline' 'wasm-unsafe-ev
 
 def document(name: str, style: str, body: str) -> str:
     """A page with its name, style and body, which loads nothing but scripts beside it."""
-    styles = re.sub(r" *([{};,]) *", r"\1", text("colours.css") + text(style))
+    styles = re.sub(r" *([{};,]) *", r"\1", text("colours.css") + text(style)).replace(": ", ":").replace(";}", "}")
     return (f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{html.escape(name)}</title>'
             f'<meta http-equiv="Content-Security-Policy" content="{POLICY}"><meta name="viewport" content="width=device-width">'
             f'<style>{styles}</style></head><body>{body}</body></html>')
