@@ -60,5 +60,7 @@ def test_what_is_not_used_is_not_imported():
 
 
 def test_matplotlib_waits_until_something_is_drawn():
-    code = "import sys, zerodrift as zd; zd.simulate(zd.systems.four_bar(), 1, step=0.05); print('matplotlib' in sys.modules)"
+    """A film is drawn by its page."""
+    code = ("import sys, zerodrift as zd; sol = zd.simulate(zd.models.four_bar(), 1, step=0.05); zd.view(sol).page;"
+            "print('matplotlib' in sys.modules)")
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "False\n"

@@ -110,7 +110,7 @@ _LATER = {      # imported, or made, at first use
 
 
 def _shown(solution: Solution) -> str:
-    """The film of a solution above its text, in notebooks; matplotlib is imported then."""
+    """The film of a solution above its text, in notebooks; the player is imported then."""
     return importlib.import_module(".player.view", __name__).of_solution(solution, repr(solution))
 
 

@@ -58,7 +58,7 @@ def test_a_small_film_is_small(crank):
 @pytest.mark.parametrize("name", ["cam_follower", "whipple_bicycle", "rattleback", "gyroscope", "planetary_gear"])
 def test_bodies_carry_their_points(name):
     """Points of the film are those of the drawing: to half a level of 16 bits of each of three points that span the axes."""
-    from zerodrift.plot.drawing import moments_of
+    from zerodrift.runs.shapes_of_samples import moments_of
     sol = zd.simulate(getattr(zd.models, name)(), 0.2, step=0.005)
     scene = scene_of(zd.view(sol))
     t = np.linspace(*scene["span"], scene["samples"])

@@ -8,8 +8,8 @@ import zerodrift as zd
 from few_bodies import falling_box
 from support import refused
 from zerodrift.player.live import live_view
-from zerodrift.plot.drawing import moments_of
 from zerodrift.plot.phases import COLOURS
+from zerodrift.runs.shapes_of_samples import moments_of
 
 
 def stopped():

@@ -12,8 +12,8 @@ from PIL import Image
 
 from .._private import checks
 from ..plot import animate
-from ..plot.drawing import moments_of
 from ..runs.samples.solution import Solution
+from ..runs.shapes_of_samples import moments_of
 from .exhibits import Exhibit
 
 COLOURS = 24            # of a film's palette

@@ -26,9 +26,9 @@ from ..mechanisms.elements.forces import Actuator, Motor
 from ..mechanisms.pictures.arrows import chosen as acting
 from ..mechanisms.pictures.arrows import is_rolling
 from ..mechanisms.system import MechanismSystem
-from ..plot.drawing import names_of_points
 from ..runs.samples.columns import columns
 from ..runs.samples.solution import Solution
+from ..runs.shapes_of_samples import names_of_points
 from ..runs.simulate import simulate
 from ..runs.states.instant import start_of
 from ..systems.measure_values import find

@@ -16,12 +16,11 @@ import numpy as np
 
 from .._private import checks
 from ..errors import WrongValue
-from ..plot.dense_samples import dense
-from ..plot.drawing import is_upside_down, moments_of, paths_of
-from ..plot.glyphs import GLYPHS
+from ..runs.dense_samples import dense
 from ..runs.samples.columns import columns
 from ..runs.samples.solution import Solution
-from ..systems.shapes import Shape
+from ..runs.shapes_of_samples import is_upside_down, moments_of, paths_of
+from ..systems.shapes import DIRECTED, Shape
 from ..units import shown
 from .rigid import carried
 
@@ -208,7 +207,7 @@ def count_places(shape: Shape) -> int:
     """The points of a shape that are places; the last ones of some kinds are directions."""
     if shape.points.shape[1] == 3:
         return 1 if shape.kind in ("pin", "sleeve", "patch") else len(shape.points)
-    return len(shape.points) - GLYPHS[shape.kind].directions
+    return len(shape.points) - DIRECTED.get(shape.kind, 0)
 
 
 def _positions(sol: Solution, times: np.ndarray) -> np.ndarray:

@@ -13,12 +13,12 @@ from .._private import checks
 from .._private.gateway import Variable
 from .._private.types import Display, Names
 from ..errors import WrongValue
+from ..runs.dense_samples import dense
 from ..runs.samples.columns import columns, in_display
 from ..runs.samples.solution import A_SOLUTION, Solution
 from ..studies.compare import difference, signals
 from ..studies.reference import Reference
 from . import style as _style
-from .dense_samples import dense
 
 APART = 100.0           # ratio of the energy violations of runs from which their axis is logarithmic
 

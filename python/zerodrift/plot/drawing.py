@@ -14,19 +14,18 @@ from matplotlib.ticker import MaxNLocator
 from .._private import checks
 from .._private.types import ArrayLike, Points, SystemLike
 from ..errors import WrongType, WrongValue
+from ..runs.dense_samples import dense
 from ..runs.samples.solution import A_SOLUTION, Solution
+from ..runs.shapes_of_samples import GHOSTS, is_nothing, is_upside_down, moments_or_points, paths_of, spread
 from ..studies.compare import nearest
 from ..systems.base import BaseSystem, system_of
 from ..systems.shapes import Shape
 from .annotations import Arrow, draw_path
-from .dense_samples import dense
 from .mechanism import NOTHING, Extras, Picture, points_of
-from .points import draw_in_space, moved_in_space, points_at, shapes_of, with_equal_scales
+from .points import draw_in_space, moved_in_space, with_equal_scales
 from .space_picture import SpacePicture
 from .style import given_axes
 
-GHOSTS = 8      # default number of faint positions of a motion
-WHOLE = 100     # positions from which the travel of sliders is determined
 NARROW = 130.0  # points: axes that are narrower show no coordinates
 QUIET = "#6E6E6E"
 
@@ -95,7 +94,7 @@ def mechanism(system_or_solution: SystemLike | Solution, p: ArrayLike | None = N
     positions = ([] if p is None and sol is not None else [system.p0 if p is None else p])
     positions += [] if sol is None else [sol.p[row] for row in rows]
     times = None if sol is None or p is not None else sol.t[rows]
-    moments = _moments(system, positions, sol, times, names=names, path=path, forces=forces)
+    moments = moments_or_points(system, positions, sol, times, names=names, path=path, forces=forces)
     extras = NOTHING if isinstance(moments, np.ndarray) else Extras(
         names, paths_of(sol, path), _arrows(sol, forces, rows[:1]), force_scale)
     return _drawn(system, moments, ax, extras, moving=sol is not None and p is None)
@@ -103,7 +102,7 @@ def mechanism(system_or_solution: SystemLike | Solution, p: ArrayLike | None = N
 
 def still_picture(system: BaseSystem, positions: Any, ax: Axes | None) -> Axes:
     """Axes with a system drawn in the first of some positions (k, nq), and faintly in the others."""
-    return _drawn(system, _moments(system, positions, None), ax)
+    return _drawn(system, moments_or_points(system, positions, None), ax)
 
 
 def _drawn(system: BaseSystem, moments: list[list[Shape]] | np.ndarray, ax: Axes | None,
@@ -204,7 +203,7 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
     frames = int((sol.t[-1] - sol.t[0]) * fps / speed) + 1
     times = sol.t[0] + np.arange(frames) * speed / fps
     rows = nearest(sol.t, times)
-    moments = _moments(sol.system, sol.p[rows], sol, sol.t[rows], names=names, path=path, forces=forces)
+    moments = moments_or_points(sol.system, sol.p[rows], sol, sol.t[rows], names=names, path=path, forces=forces)
     ax = drawing_axes(ax, 3 if isinstance(moments, np.ndarray) or _is_in_space(moments) else 2)
     if isinstance(moments, np.ndarray):
         return _film(ax, moved_in_space(ax, moments), times, fps)
@@ -220,7 +219,7 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
 
 def _check_asked(sol: Solution | None, p: Any, **asked: Any) -> None:
     """Check that arguments that require a solution, or a sample of it, are not given without it."""
-    wanted = [name for name, value in asked.items() if value is not None and value is not False and not _is_nothing(value)]
+    wanted = [name for name, value in asked.items() if value is not None and value is not False and not is_nothing(value)]
     for name in wanted:
         if sol is None:
             raise WrongValue(f"{name} must be left out for a system in one position: it needs a solution, as zd.simulate returns",
@@ -228,10 +227,6 @@ def _check_asked(sol: Solution | None, p: Any, **asked: Any) -> None:
         if p is not None and name in ("t", "forces"):
             raise WrongValue(f"{name} must be left out where p is given: it needs a sample of the solution, see t",
                              "conflicting-arguments")
-
-
-def _is_nothing(value: Any) -> bool:
-    return isinstance(value, tuple | list) and not value
 
 
 def _rows(sol: Solution | None, p: Any, t: float | None, ghosts: Any) -> np.ndarray:
@@ -242,47 +237,15 @@ def _rows(sol: Solution | None, p: Any, t: float | None, ghosts: Any) -> np.ndar
     if ghosts is None:
         ghosts = GHOSTS if p is None and t is None else 0
     if isinstance(ghosts, int | np.integer):
-        others = np.setdiff1d(_spread(sol, checks.count("ghosts", ghosts, least=0)), first)[:ghosts]
+        others = np.setdiff1d(spread(sol, checks.count("ghosts", ghosts, least=0)), first)[:ghosts]
     else:
         others = nearest(sol.t, checks.times("ghosts", ghosts, sol.t[0], sol.t[-1]))
     return np.concatenate([first if p is None else first[:0], others])
 
 
-def _spread(sol: Solution, count: int) -> np.ndarray:
-    """Indices of `count` + 1 samples evenly over the run, including the first."""
-    return np.linspace(0, len(sol.t) - 1, count + 1).round().astype(int)
-
-
 def _is_in_space(moments: list[list[Shape]]) -> bool:
     """True if the shapes are three-dimensional."""
     return any(shape.points.shape[1] == 3 for shape in moments[0])
-
-
-def is_upside_down(system: Any) -> bool:
-    """True if gravity acts along +z, as where z points down."""
-    return float(getattr(system, "parameters", {}).get("gravity.z", 0.0)) > 0
-
-
-def names_of_points(points: Any) -> list[str]:
-    """Names of points, or of a single one, that are given as objects or by name."""
-    found = []
-    for point in points if isinstance(points, list | tuple) else [points]:
-        name = point if isinstance(point, str) else getattr(point, "measured_name", None) or getattr(point, "name", None)
-        if not isinstance(name, str):
-            raise WrongType(f"each of path must be a point or its name, such as 'F' or rod.end, not {checks.shown(point)}")
-        found.append(name)
-    return found
-
-
-def paths_of(sol: Any, points: Any) -> list[np.ndarray]:
-    """Positions (k, 2) or (k, 3) in m of points at all samples of a solution or a trace."""
-    found = []
-    for name in names_of_points(points):
-        places = np.asarray(sol[name if name.endswith(".position") else f"{name}.position"])
-        if places.ndim != 2:
-            raise WrongValue(f"path {name!r} must be of a point, not of the scalar {name}.position", "wrong-measure")
-        found.append(places)
-    return found
 
 
 def _arrows(sol: Solution | None, forces: Any, rows: np.ndarray) -> list[Arrow]:
@@ -301,55 +264,6 @@ def _film(ax: Axes, draw: Callable[[int], list[Any]], times: np.ndarray, fps: fl
 
     frames = len(times)
     return FuncAnimation(ax.figure, show, frames=frames, interval=1000 / fps, blit=False)      # type: ignore[arg-type]
-
-
-def _moments(system: BaseSystem, positions: Any, sol: Solution | None, times: Any = None,
-             **asked: Any) -> list[list[Shape]] | np.ndarray:
-    """Shapes of each position, at times (k,) of a solution; for a system in space without shapes, its points (k, n, 3)."""
-    if isinstance(system, BaseSystem):
-        motion = () if sol is None else sol.p[_spread(sol, WHOLE)]
-        known = system._sketches([checks.vector("p", p, system.nq) for p in positions], motion)
-        if known is not None:
-            return known if sol is None or times is None else _as_joined(known, sol, times)
-    for name, value in asked.items():
-        if value is not False and not _is_nothing(value):
-            raise WrongValue(f"{name} must be left out for {system.name}, which is drawn from its points: it needs a Mechanism",
-                             "not-available")
-    points = points_at(system, positions)
-    if points.shape[2] == 3:
-        return points
-    motion = points if sol is None else points_at(system, sol.p[_spread(sol, GHOSTS)])
-    return shapes_of(points, motion)
-
-
-def _as_joined(moments: list[list[Shape]], sol: Solution, times: Any) -> list[list[Shape]]:
-    """The shapes with rods shrunk to their first points while they are released."""
-    changes, switched = sol.transitions, [(i, name) for i, (name, kind) in enumerate(sol.system._groups) if kind == "two-sided"]
-    if not switched:
-        return moments
-    states = changes["state"][np.searchsorted(changes["t"], times, side="right") - 1]
-    released = [{name for i, name in switched if not state[i]} for state in states]
-    return [[shape._replace(points=shape.points[[0, 0]]) if shape.kind == "rod" and shape.name in names else shape
-             for shape in shapes] for shapes, names in zip(moments, released, strict=True)]
-
-
-def moments_of(sol: Solution, positions: Any, times: Any = None) -> list[list[Shape]]:
-    """Shapes of the system of a solution at each of the positions (k, nq), at times (k,) in s.
-
-    Raises
-    ------
-    ValueError
-        If the system cannot be drawn.
-    """
-    moments = _moments(sol.system, positions, sol, times)
-    return list(map(_lines, moments)) if isinstance(moments, np.ndarray) else moments
-
-
-def _lines(points: np.ndarray) -> list[Shape]:
-    """Points (n, 3) joined by lines where they are not NaN."""
-    known = np.flatnonzero(~np.isnan(points).any(axis=1))
-    runs = np.split(known, np.flatnonzero(np.diff(known) > 1) + 1) if known.size else []
-    return [Shape("rod" if len(run) > 1 else "dot", points[run]) for run in runs]
 
 
 def drawing_axes(ax: Axes | None, dimension: int) -> Axes:

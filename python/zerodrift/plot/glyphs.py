@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..systems.shapes import Shape
+from ..systems.shapes import DIRECTED, Shape
 from .marks import (
     BODY,
     CHAIN,
@@ -346,6 +346,4 @@ class Glyph(NamedTuple):
 BACK_TO_FRONT = (ring, gear, cam, ground, wall, rail, road, surface, wheel, disc, coupled, guide, stop, link, curve, groove, rod,
                  cylinder, damper, spring, slider, rack, block, bushing, weld, particle, roller, spiral, pin, blade, mark, motor,
                  drive, load, load_symbol, moment)
-DIRECTED = {"drive": 2, **dict.fromkeys(("rail", "road", "stop", "wall", "groove", "guide", "slider", "block", "disc", "wheel",
-                                         "gear", "ring", "rack", "blade", "weld", "load", "load_symbol"), 1)}
 GLYPHS = {draw.__name__: Glyph(draw, 1.5 + 0.05 * i, DIRECTED.get(draw.__name__, 0)) for i, draw in enumerate(BACK_TO_FRONT)}

@@ -9,58 +9,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
-from ..errors import WrongValue
-from ..systems.base import BaseSystem
-from ..systems.shapes import Shape
+from ..runs.shapes_of_samples import JOINTS, at_rest
 from .style import COLOURS
 
-JOINTS = 12     # the most points that are drawn as joints; more points are taken for a curve
 NARROWEST = 0.25    # of the longest axis in space: shortest one
 ZOOM = 0.86         # of a picture in space
-RESTING = 1e-6  # of the drawing: what moves by less rests
-
-
-def points_at(system: BaseSystem, positions: Any) -> np.ndarray:
-    """The points of each position, (positions, points, dimension)."""
-    drawings = [system.points(p) for p in positions]
-    if not drawings or drawings[0] is None:
-        raise WrongValue(f"{system.name} has no drawing: it gives no points", "not-available")
-    return np.array(drawings)
-
-
-def shapes_of(drawings: np.ndarray, motion: np.ndarray) -> list[list[Shape]]:
-    """The shapes of each drawing of the plane, (drawings, points, 2): bars and pins, and curves of many points. What rests in
-    all drawings of a motion is held by the ground.
-    """
-    rests = _rest(motion) if len(motion) > 1 else np.zeros(drawings.shape[1], dtype=bool)
-    return [[shape for run in _runs(points) for shape in _run(points[run], rests[run])] for points in drawings]
-
-
-def _run(points: np.ndarray, rests: np.ndarray) -> list[Shape]:
-    """Shapes of joined points (n, 2)."""
-    if len(points) > JOINTS:
-        return [Shape("curve", points)]
-    bars = [Shape("link", points[i:i + 2]) for i in range(len(points) - 1) if np.ptp(points[i:i + 2], axis=0).any()]
-    ends = [Shape("particle", points)] if len(points) == 1 else []
-    held = [Shape("ground", place[None]) for place in points[rests]]
-    pins = [Shape("pin", place[None]) for i, place in enumerate(points) if rests[i] or 0 < i < len(points) - 1]
-    return [*bars, *ends, *held, *pins]
-
-
-def _runs(points: np.ndarray) -> list[np.ndarray]:
-    """The numbers of the points of each line, which end where a point is NaN."""
-    known = ~np.isnan(points).any(axis=1)
-    numbers = np.flatnonzero(known)
-    return np.split(numbers, np.flatnonzero(np.diff(numbers) > 1) + 1) if numbers.size else []
-
-
-def _rest(drawings: np.ndarray) -> np.ndarray:
-    """Mask of the points that are at rest in all drawings."""
-    size = (np.nanmax(drawings, axis=(0, 1)) - np.nanmin(drawings, axis=(0, 1))).max()
-    return np.ptp(drawings, axis=0).max(axis=1) <= RESTING * size
-
-
-# ---- in space ----
 
 
 def draw_in_space(ax: Axes, drawings: np.ndarray, *, moving: bool) -> Axes:
@@ -69,7 +22,7 @@ def draw_in_space(ax: Axes, drawings: np.ndarray, *, moving: bool) -> Axes:
         ax.plot(*points.T, _line_format(points), color=COLOURS[0], alpha=0.25, linewidth=1.2, markersize=2.5)
     _line(ax, drawings[0])
     if moving:
-        ax.plot(*drawings[0][_rest(drawings)].T, "s", color="black", markersize=7, zorder=3)
+        ax.plot(*drawings[0][at_rest(drawings)].T, "s", color="black", markersize=7, zorder=3)
     return with_equal_scales(ax)
 
 

@@ -10,11 +10,11 @@ from matplotlib.axes import Axes
 from .._private import checks
 from .._private.types import Display, MeasureLike
 from ..errors import WrongValue
+from ..runs.dense_samples import dense
 from ..runs.samples.columns import columns
 from ..runs.samples.solution import A_SOLUTION, Solution
 from ..units import displayed
 from . import style as _style
-from .dense_samples import dense
 
 
 @displayed

@@ -13,9 +13,10 @@ from .._private import checks
 from .._private.types import ArrayLike, Display, Names, Points
 from ..errors import WrongIndex, WrongType, WrongValue
 from ..mechanisms.elements.measures import name_of
+from ..runs.shapes_of_samples import paths_of
 from ..tracing.trace_result import Trace
 from . import style as _style
-from .drawing import drawing_axes, paths_of
+from .drawing import drawing_axes
 from .mechanism import Extras, Picture
 
 A_TRACE = "a Trace, as zd.trace returns it"

@@ -6,6 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+# Number of trailing points that are directions, of the kinds that have them.
+DIRECTED = {"drive": 2, **dict.fromkeys(("rail", "road", "stop", "wall", "groove", "guide", "slider", "block", "disc", "wheel",
+                                         "gear", "ring", "rack", "blade", "weld", "load", "load_symbol"), 1)}
+
 
 class Shape(NamedTuple):
     """A part of a drawing.

@@ -9,8 +9,8 @@ import weakref
 import numpy as np
 
 from ..errors import ZerodriftError
-from ..runs.samples.solution import Solution
-from ..runs.simulate import simulate
+from .samples.solution import Solution
+from .simulate import simulate
 
 FEW_SAMPLES = 400       # of a solution: with as many, straight lines between them are shorter than what can be seen
 _found: weakref.WeakKeyDictionary[Solution, Solution] = weakref.WeakKeyDictionary()

@@ -6,7 +6,7 @@ import pytest
 
 import zerodrift as zd
 from zerodrift.player.scene import Wanted, scene
-from zerodrift.plot.dense_samples import FEW_SAMPLES, dense
+from zerodrift.runs.dense_samples import FEW_SAMPLES, dense
 
 
 @pytest.fixture(scope="module")
