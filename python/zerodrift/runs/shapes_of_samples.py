@@ -98,9 +98,7 @@ def moments_of(sol: Solution, positions: Any, times: Any = None) -> list[list[Sh
 
 def _lines(points: np.ndarray) -> list[Shape]:
     """Points (n, 3) joined by lines where they are not NaN."""
-    known = np.flatnonzero(~np.isnan(points).any(axis=1))
-    runs = np.split(known, np.flatnonzero(np.diff(known) > 1) + 1) if known.size else []
-    return [Shape("rod" if len(run) > 1 else "dot", points[run]) for run in runs]
+    return [Shape("rod" if len(run) > 1 else "dot", points[run]) for run in _runs(points)]
 
 
 def points_at(system: BaseSystem, positions: Any) -> np.ndarray:
@@ -132,8 +130,7 @@ def _run(points: np.ndarray, rests: np.ndarray) -> list[Shape]:
 
 def _runs(points: np.ndarray) -> list[np.ndarray]:
     """The numbers of the points of each line, which end where a point is NaN."""
-    known = ~np.isnan(points).any(axis=1)
-    numbers = np.flatnonzero(known)
+    numbers = np.flatnonzero(~np.isnan(points).any(axis=1))
     return np.split(numbers, np.flatnonzero(np.diff(numbers) > 1) + 1) if numbers.size else []
 
 
