@@ -234,6 +234,13 @@ def test_it_has_graphs_paths_forces_and_units(browser, tmp_path):
         zd.view(m, live=True, graphs=["C.x"])
 
 
+def test_numbers_of_sliders_are_within_their_cells(browser, tmp_path):
+    browser.open(zd.view(zd.models.andrews(), live=True).save(tmp_path / "live").as_uri(), width=560, height=600)
+    browser.until("document.querySelectorAll('#sliders output').length > 3")
+    assert browser.evaluate("""[...document.querySelectorAll("#sliders label")]
+        .every(each => each.lastElementChild.getBoundingClientRect().right <= each.getBoundingClientRect().right + 1)""")
+
+
 @pytest.mark.parametrize("name", ["four_bar", "slider_crank", "quick_return", "coin"])
 def test_forces_of_hinges_on_the_ground_and_of_slots_are_arrows(browser, name, tmp_path):
     m = getattr(zd.models, name)()
