@@ -12,6 +12,8 @@
 static const double EXCESS_SHARE = 1e-9;    /* force beyond its bound, relative to the largest one, that is rounding */
 static const double EXCESS = 2e-15;         /* the same where there are none, in characteristic lengths */
 
+enum { MAX_SOLUTIONS = 8 };                 /* phases that are tried where laws read reactions */
+
 /* Enters the next phase, and passes on to it what its state does not say. */
 static int enter(const zd_contacts *it)
 {
@@ -64,27 +66,52 @@ static int correct_state(zd_contacts *it, int k)
     return 1;
 }
 
-/* True if friction that slides from rest in the present phase is accelerated backward there. */
-static int is_driven_back(const zd_contacts *it, int k)
+/* Acceleration along a candidate in the present phase, of which xi is known. */
+static double find_acceleration(const zd_contacts *it, int k)
 {
     const zd_phase_system *of = it->phases->present->of;
-    const int nv = of->full->nv, first = k - (it->row[k].pair == 2);
+    const double *vdot = it->run->motion.point->vdot;
+    return zd_dot(of->full->nv, it->g + (size_t)k * of->full->nv, vdot) - it->sign[k] * zd_phase_xi(of)[zd_candidate_row(it, k)];
+}
+
+/* True if friction that slides from rest in the present phase is accelerated backward there, or an open contact is closed. */
+static int is_driven_back(const zd_contacts *it, int k)
+{
+    const int first = k - (it->row[k].pair == 2);
     double along = 0, size = 0;
-    if (k < it->normals || !zd_slides(it->next[it->group[k]])) return 0;
+    if (k < it->normals ? it->next[it->group[k]] != ZD_OPEN : !zd_slides(it->next[it->group[k]])) return 0;
     for (int i = first; i <= first + (it->row[k].pair != 0); i++) {
-        const double a = zd_dot(nv, it->g + (size_t)i * nv, it->run->motion.point->vdot) - zd_phase_xi(of)[zd_candidate_row(it, i)];
+        const double a = find_acceleration(it, i);
         if (fabs(it->w[i]) > ZD_STILL * zd_rest_speed(it, i)) return 0;
-        along += a * (it->row[k].pair ? it->direction[i] : zd_slip_sign(it->next[it->group[k]]));
+        along += a * (k < it->normals ? 1 : it->row[k].pair ? it->direction[i] : zd_slip_sign(it->next[it->group[k]]));
         size = fmax(size, fabs(it->b[i]));
     }
     return along < -EXCESS_SHARE * size;
+}
+
+/* `next` by the forces of laws in the present phase, as they are constant; then in the phase that follows, until it is the same one. */
+static int solve_again(zd_contacts *it, int *is_same)
+{
+    const double *lambda = zd_point_multipliers(it->run->motion.point);
+    int status = zd_phase_evaluate(it->phases->present->of, ZD_XI, it->phases->at.t, it->phases->at.p, it->phases->at.v);
+    for (int k = 0; k < it->count; k++) it->z[k] = -it->sign[k] * lambda[zd_candidate_row(it, k)];
+    for (int k = 0; k < it->count && !status; k++)
+        it->b[k] = find_acceleration(it, k) - zd_dot(it->count, it->W + (size_t)k * it->count, it->z);
+    if (!status) status = zd_contacts_solve(it, it->count, "the forces");
+    *is_same = 1;
+    for (int k = 0; k < it->count && !status; k++) {
+        *is_same &= it->next[it->group[k]] == it->state[k];
+        it->next[it->group[k]] = it->state[k];
+    }
+    return status || *is_same ? status : enter(it);
 }
 
 /* Forces that read loads and reactions are known only in the new phase, so that its states may change there. */
 int zd_contacts_enter(zd_contacts *it)
 {
     const int reads = it->phases->full->reading != NULL;
-    int status = enter(it);
+    int status = enter(it), is_same = !reads;
+    for (int i = 0; i < MAX_SOLUTIONS && !status && !is_same; i++) status = solve_again(it, &is_same);
     for (int k = 0; k < it->count && !status; k++)
         if ((reads || zd_candidate_group(it, k)->loads) && correct_state(it, k)) status = enter(it);
     if (!status && reads) status = zd_phase_evaluate(it->phases->present->of, ZD_XI, it->phases->at.t, it->phases->at.p, it->phases->at.v);

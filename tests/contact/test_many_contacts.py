@@ -145,11 +145,46 @@ def test_laws_that_read_reactions_decide_what_slides(coordinates):
     assert sol["block.velocity.x"][-1] == pytest.approx(0, abs=1e-15)
     sol = zd.simulate(pulled(lambda n: 0.5 * n, coordinates), 1.0, step=0.01)
     assert sol["block.velocity.x"][-1] == pytest.approx((0.5 * 2 - 0.2 * 4) * G / 4, rel=1e-12)
+    assert sol["load.acceleration"][-1] == pytest.approx([(0.5 * 2 - 0.2 * 4) * G / 4, 0], abs=1e-12)
+    assert sol["pin.force"][-1] == pytest.approx([(0.5 * 2 - 0.2 * 4) * G / 2, 2 * G], rel=1e-12)
+
+
+@pytest.mark.parametrize(("pull", "slides"), [(3.0, 0.0), (7.0, 7.0 - 0.6 * G)])
+def test_a_law_that_presses_holds_what_slid_without_it(pull, slides):
+    """N = 2 g with half of it from the law; the pull is beyond 0.3 g."""
+    m = zd.Mechanism("pressed", gravity=(0, -G))
+    body = m.particle("body", 1.0, at=(0, 0))
+    m.contact("floor", body, m.ground.line((0, 0), (1, 0)), friction=0.3)
+    m.force("press", body, along=(0, -1), value=lambda n: 0.5 * n, of={"n": "floor.force.y"})
+    m.force("pull", body, along=(1, 0), value=pull)
+    sol = zd.simulate(m, 1.0, step=0.01)
+    assert sol["body.velocity.x"][-1] == pytest.approx(slides, abs=1e-12)
+    assert sol["floor.force.y"][-1] == pytest.approx(2 * G, rel=1e-12)
+
+
+def test_friction_read_by_a_law_holds_another_body():
+    """The friction of one block, 0.6 g, of which 0.4 pull another that holds 0.3 g."""
+    m = zd.Mechanism("two", gravity=(0, -G))
+    one, two, line = m.particle("one", 1.0, at=(0, 0)), m.particle("two", 2.0, at=(1, 0)), m.ground.line((0, 0), (1, 0))
+    m.contact("a", one, line, friction=0.3)
+    m.contact("b", two, line, friction=0.3)
+    m.force("on two", two, along=(1, 0), value=lambda n: n, of={"n": "a.force.y"})
+    m.force("on one", one, along=(1, 0), value=lambda f: 0.4 * f, of={"f": "b.force.x"})
+    sol = zd.simulate(m, 1.0, step=0.01)
+    assert sol["one.velocity.x"][-1] == 0
+    assert sol["two.velocity.x"][-1] == pytest.approx((1 - 0.6) * G / 2, rel=1e-12)
 
 
 def test_laws_that_lead_from_each_state_to_another_are_named():
+    """Each of two blocks is pulled by 4 N and, in opposite senses, by 2.5 times the friction of the other one."""
+    m = zd.Mechanism("two", gravity=(0, -G))
+    for k in range(2):
+        m.contact(f"c{k}", m.particle(f"b{k}", 1.0, at=(k, 0)), m.ground.line((0, 0), (1, 0)), friction=0.3)
+    for k, sign in enumerate((1, -1)):
+        m.force(f"pull{k}", m[f"b{k}"], along=(1, 0), value=4.0)
+        m.force(f"cross{k}", m[f"b{k}"], along=(1, 0), value=lambda f, sign=sign: 2.5 * sign * f, of={"f": f"c{1 - k}.force.x"})
     with pytest.raises(zd.NoUniqueMotion, match="must agree with the forces that laws read"):
-        zd.simulate(pulled(lambda n: 9.0 - 0.3 * n), 1.0, step=0.01)
+        zd.simulate(m, 1.0, step=0.01)
 
 
 @pytest.mark.parametrize("height", [0.0, 1.0])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import weakref
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -130,6 +130,9 @@ class Watching:
         if known is None:
             formulation, states = _formulation(solution.settings["formulation"]), _states(solution, part)
             is_own = core is not self.core
+            if core.c.groups and core.functions:
+                return _in_phases(core, formulation, states, solution._state_of_groups[part], is_own=is_own), np.array(
+                    solution.multipliers[part])
             if core.c.groups:
                 return gateway.accelerations_with(core, formulation, *states, solution.multipliers[part]), np.array(
                     solution.multipliers[part])
@@ -199,6 +202,17 @@ def _formulation(given: Any) -> int:
     """Index in the core of a formulation given by its name or its settings."""
     name = given if isinstance(given, str) else given.card.name
     return [card.name for card in gateway.cards("formulations")].index(name)
+
+
+def _in_phases(core: CoreSystem, formulation: int, states: Sequence[np.ndarray], phases: np.ndarray, *,
+               is_own: bool) -> np.ndarray:
+    """Accelerations (k, nv) at states t, p, v, each in its phase (k, groups), where laws read reactions."""
+    found = np.empty_like(states[2])
+    every, which = np.unique(phases, axis=0, return_inverse=True)
+    for i, phase in enumerate(every):
+        own, within = which.reshape(-1) == i, gateway.in_phase(core, phase.tolist())
+        found[own] = gateway.accelerations(within, formulation, 1, *(each[own] for each in states), is_own=is_own)[0]
+    return found
 
 
 def _parts(solution: Any) -> list[slice]:

@@ -19,7 +19,7 @@ from .between_samples import states_between
 from .columns import to_csv, to_excel, to_frame
 from .loads import Loaded
 from .named import Named, Stats
-from .phases import Phase, impacts_of, phases_of
+from .phases import Phase, impacts_of, phases_of, state_from_samples
 from .saving import write
 from .summary import summary
 
@@ -284,6 +284,11 @@ class Solution(Named, Loaded):
         if between.any():
             p[between], v[between] = states_between(self, rows[between], times[between])
         return p, v
+
+    @property
+    def _state_of_groups(self) -> Any:
+        """State (k, groups) of each group of constraints from each sample on."""
+        return state_from_samples(self.t, self.transitions)
 
     @property
     def _last_time(self) -> float:
