@@ -1,6 +1,7 @@
 /* Runs in lanes, with the checks that are made lane by lane. */
 #pragma once
 
+#include "../contact/gaps.h"
 #include "../output/watch.h"
 #include "../run/run.h"
 #include "batch.h"
@@ -37,11 +38,6 @@ typedef struct zd_lane_search {
     int is_at_end;          /* 1: the lane has reached it, and the samples before are saved */
 } zd_lane_search;
 
-typedef struct zd_lane_gaps {   /* gaps of contacts and their rates, (groups,) */
-    double *gap, *rate;
-    double number;          /* number of the step at whose end they are; -1: none */
-} zd_lane_gaps;
-
 typedef struct zd_lane_run {    /* state of the run in a lane */
     int64_t number;         /* index in the batch; -1: none */
     int64_t samples;        /* number of samples saved */
@@ -52,7 +48,7 @@ typedef struct zd_lane_run {    /* state of the run in a lane */
     double *C;              /* (m, nv): in characteristic scales, at the end of the step */
     double number_of_C;     /* number of the step at whose end C was evaluated; -1: none */
     zd_lane_search search;  /* event location */
-    zd_lane_gaps gaps, spare_gaps;      /* at the end of the step */
+    zd_gaps gaps[2];        /* gaps of contacts at the start and the end of the step */
     zd_lane_energy of_energy;
     int is_off;             /* 1: a check found an energy error that deserves a warning */
 } zd_lane_run;
@@ -123,7 +119,6 @@ void zd_lane_group_go_to_end(zd_lane_group *self, int lane);
 int zd_lane_contacts_stay_open(zd_lane_group *self, int lane);
 /* Lets a lane leave if the event that changes its sign is that of a contact; returns 1 if so. */
 int zd_lane_contact_leaves(zd_lane_group *self, int lane);
-zd_lane_gaps zd_lane_gaps_create(zd_arena *arena, int groups);
 
 /* lane_actions.c: number of the occurrence of the event that ends the run; the next one, if it acts. */
 int64_t zd_lane_last_of(const zd_lane_group *self, const zd_lane_run *run, int event);

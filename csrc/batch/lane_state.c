@@ -71,7 +71,8 @@ void zd_lane_group_note_start(zd_lane_group *self, int lane)
 {
     zd_motion *motion = &self->run->motion;
     zd_lane_run *run = &self->run_of[lane];
-    run->number_of_C = run->search.number_of_now = run->gaps.number = -1;
+    run->number_of_C = run->search.number_of_now = -1;
+    run->gaps[1].t = NAN;
     run->search.ended = run->search.is_cut = run->search.is_at_end = run->is_complete = run->is_off = 0;
     run->kinetic = run->kinetic_at_start = zd_has_energy(&motion->system) ? zd_point_kinetic(motion->point) : 0;
     run->energy = motion->balance.initial;

@@ -75,7 +75,7 @@ static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_si
             .number = -1,
             .C = zd_arena_doubles(arena, size_of_C),
             .search = zd_lane_search_create(arena, &group.lanes),
-            .gaps = zd_lane_gaps_create(arena, full->groups), .spare_gaps = zd_lane_gaps_create(arena, full->groups),
+            .gaps = {zd_gaps_create(arena, full, full->groups), zd_gaps_create(arena, full, full->groups)},
         };
     return group;
 }

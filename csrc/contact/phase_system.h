@@ -98,6 +98,13 @@ static inline int zd_has_pairs(const zd_system *full)
         if (full->group[g].normal && full->group[g].rows == 2) return 1;
     return 0;
 }
+/* True if one-sided constraints are among the groups of a phase, if there is one. */
+static inline int zd_has_contacts(const zd_phase_system *phase)
+{
+    for (int g = 0; phase && g < phase->full->groups; g++)
+        if (phase->full->group[g].kind == ZD_ONE_SIDED) return 1;
+    return 0;
+}
 /* Number of rows of the full system of a point. */
 static inline int zd_point_constraints(const zd_point *point) { return zd_constraints(point->phase ? point->phase->full : point->system); }
 /* Multipliers of all rows at the point, which are known there; valid until the next call. */

@@ -32,10 +32,18 @@ static zd_end_rates create_end_rates(zd_arena *arena, const zd_output *output)
     return (zd_end_rates){zd_arena_doubles(arena, system->nq), zd_arena_doubles(arena, system->nv), 0};
 }
 
+static int is_of_group(const zd_events *events, int event)
+{
+    const zd_event *known = events->known ? events->known + event : NULL;
+    return known && known->readings && known->reading->what == ZD_READS_GROUP;
+}
+
 zd_watch zd_watch_create(zd_arena *arena, const zd_events *events, zd_output *output)
 {
     if (!events) return (zd_watch){.events = NULL};
     size_t count = events->count;
+    int groups = 0;
+    for (int i = 0; i < events->count; i++) groups += is_of_group(events, i);
     const zd_motion *motion = output->stepper->motion;
     return (zd_watch){
         .events = events,
@@ -47,6 +55,7 @@ zd_watch zd_watch_create(zd_arena *arena, const zd_events *events, zd_output *ou
         .occurrence = zd_arena_bytes(arena, count * ZD_MAX_POINTS * sizeof(zd_occurrence)),
         .at_start = create_end_rates(arena, output),
         .at_end = create_end_rates(arena, output),
+        .gaps = {zd_gaps_create(arena, &motion->system, groups), zd_gaps_create(arena, &motion->system, groups)},
         .end = zd_state_create(arena, motion),
         .early = zd_state_create(arena, motion),
         .late = zd_state_create(arena, motion),
@@ -61,6 +70,7 @@ int zd_watch_start(zd_watch *self)
 {
     zd_phase_system *phase = self->output->stepper->motion->point->phase;
     if (phase) zd_phase_forget(phase);
+    self->gaps[self->end_gaps].t = NAN;
     return zd_watch_evaluate_all(self, self->before);
 }
 
@@ -97,12 +107,6 @@ static int locate(zd_watch *self, zd_occurrence *occurrence)
         if (!self->output->is_prepared) zd_stepper_save_state(self->output->stepper, it->a == t ? &self->early : &self->late);
     }
     return ZD_DONE;
-}
-
-static int is_of_group(const zd_events *events, int event)
-{
-    const zd_event *known = events->known ? events->known + event : NULL;
-    return known && known->readings && known->reading->what == ZD_READS_GROUP;
 }
 
 /* Locates at most this number of occurrences of an event in the step. The first terminal one before `end` becomes the last of the run. */
@@ -269,6 +273,8 @@ int zd_watch_after(zd_watch *self, int corrected, double *end)
     int occurs = 0;
     if (!corrected) zd_output_save_end(output);
     int status = corrected ? ZD_DONE : zd_watch_correct(output->stepper);
+    zd_stepper_save_state(output->stepper, &self->end);
+    if (!status) status = zd_watch_find_gaps(self);
     if (!status) status = zd_watch_evaluate_all(self, self->now);
     if (!status) status = zd_watch_predict(self, &occurs);
     if (!status && occurs) status = find_all(self, end);

@@ -38,6 +38,42 @@ int zd_watch_move(zd_watch *self, double t)
     return status || t == end->t ? status : zd_watch_correct(stepper);
 }
 
+static double time_of_sample(const zd_watch *self, int k)
+{
+    const double t0 = self->output->before.t;
+    return t0 + zd_sample_share(k) * (self->end.t - t0);
+}
+
+/* ---- contacts that stay open ---- */
+
+int zd_watch_find_gaps(zd_watch *self)
+{
+    const zd_phase_system *phase = self->output->stepper->motion->point->phase;
+    const zd_state *before = &self->output->before, *end = &self->end;
+    if (!self->gaps->gap) return ZD_DONE;
+    self->end_gaps = !self->end_gaps;
+    const int status = zd_gaps_find(&self->gaps[!self->end_gaps], phase, before->t, before->p, before->v);
+    return status ? status : zd_gaps_find(&self->gaps[self->end_gaps], phase, end->t, end->p, end->v);
+}
+
+/* Keeps the ends of the step alone in the points of contacts that stay open. */
+static void pass_open(zd_watch *self)
+{
+    const zd_point *point = self->output->stepper->motion->point;
+    const zd_gaps *before = &self->gaps[!self->end_gaps], *after = &self->gaps[self->end_gaps];
+    if (!after->gap || !(zd_gaps_distance(before, after, point->system->nv, point->inverse_unit) < ZD_NEAR_GAPS)) return;
+    const int groups = point->phase->full->groups, own = self->events->count - groups;
+    for (int g = 0; g < groups; g++)
+        if (zd_gap_stays_open(point->phase, before, after, g)) zd_zeros_keep_ends(&self->zeros[own + g], 0);
+}
+
+static int is_searched(const zd_watch *self)
+{
+    int any = 0;
+    for (int i = 0; i < self->events->count; i++) any |= self->zeros[i].count > 2;
+    return any;
+}
+
 /* ---- prediction ---- */
 
 static int find_rates(const zd_watch *self, zd_end_rates *rates)
@@ -113,13 +149,13 @@ static void predict_by_dense_output(zd_watch *self, double x)
 }
 
 /* Moves `mixed` to the polynomial, and the point, too, if `moves`. */
-static int predict_state(zd_watch *self, double x, int moves)
+static int predict_state(zd_watch *self, int k, int moves)
 {
+    const double x = zd_sample_share(k);
     zd_stepper *stepper = self->output->stepper;
     const zd_system *system = &stepper->motion->system;
-    const double t0 = self->output->before.t;
     zd_state *there = &self->mixed;
-    there->t = t0 + x * (self->end.t - t0);
+    there->t = time_of_sample(self, k);
     if (is_fixed(self)) predict_by_rates(self, x);
     else predict_by_dense_output(self, x);
     zd_quaternions_normalise(system, there->p);
@@ -131,9 +167,10 @@ static int predict_state(zd_watch *self, double x, int moves)
 
 static int predict_values(zd_watch *self, int k, int moves)
 {
-    int status = predict_state(self, zd_sample_share(k), moves);
+    int status = predict_state(self, k, moves);
     for (int i = 0; !status && i < self->events->count; i++) {
         zd_zeros *zeros = &self->zeros[i];
+        if (zeros->count == 2) continue;
         zeros->t[k] = self->mixed.t;
         status = zd_watch_reads_accelerations(self, i) ? zd_watch_evaluate(self, i, &zeros->g[k])
                                                        : zd_watch_evaluate_at(self, i, &self->mixed, &zeros->g[k]);
@@ -164,9 +201,10 @@ static int compare_with_corrected(zd_watch *self)
     static const int at[] = {6, ZD_SAMPLES + 1 - 6};
     int status = ZD_DONE;
     for (int j = 0; !status && j < 2; j++) {
-        status = zd_watch_move(self, self->zeros->t[at[j]]);
+        status = zd_watch_move(self, time_of_sample(self, at[j]));
         for (int i = 0; !status && i < self->events->count; i++) {
             double g;
+            if (self->zeros[i].count == 2) continue;
             status = zd_watch_evaluate(self, i, &g);
             if (!status) zd_zeros_compare(&self->zeros[i], at[j], g);
         }
@@ -186,7 +224,7 @@ static int predict_all(zd_watch *self, int *is_known)
 static int occurs_by(zd_watch *self, int event, int is_known)
 {
     zd_zeros *zeros = &self->zeros[event];
-    if (is_known ? !zd_zeros_are_paired(zeros) : is_fixed(self)) zd_zeros_keep_ends(zeros, is_known);
+    if (zeros->count > 2 && (is_known ? !zd_zeros_are_paired(zeros) : is_fixed(self))) zd_zeros_keep_ends(zeros, is_known);
     return zeros->count > 2 || zd_passes_zero(self->before[event], self->now[event], self->events->direction[event]);
 }
 
@@ -213,9 +251,9 @@ int zd_watch_leave(zd_watch *self)
 
 int zd_watch_predict(zd_watch *self, int *occurs)
 {
-    zd_stepper_save_state(self->output->stepper, &self->end);
     zd_watch_span(self);
-    int is_known = may_predict(self), status = is_known ? predict_all(self, &is_known) : ZD_DONE;
+    pass_open(self);
+    int is_known = is_searched(self) && may_predict(self), status = is_known ? predict_all(self, &is_known) : ZD_DONE;
     for (int i = 0; !status && i < self->events->count; i++) *occurs |= occurs_by(self, i, is_known);
     return status;
 }
@@ -224,7 +262,7 @@ int zd_watch_predict(zd_watch *self, int *occurs)
 
 static int take_sample(zd_watch *self, int k)
 {
-    const double t0 = self->output->before.t, t = t0 + zd_sample_share(k) * (self->end.t - t0);
+    const double t = time_of_sample(self, k);
     int status = zd_watch_move(self, t);
     for (int i = 0; !status && i < self->events->count; i++) {
         zd_zeros *zeros = &self->zeros[i];
@@ -252,8 +290,8 @@ static int find_pairs(zd_watch *self, int event)
 
 int zd_watch_sample(zd_watch *self)
 {
-    int status = ZD_DONE, any = 0;
-    for (int i = 0; i < self->events->count; i++) any |= self->zeros[i].count > 2;
+    int status = ZD_DONE;
+    const int any = is_searched(self);
     for (int k = 1; any && !status && k <= ZD_SAMPLES; k++) status = take_sample(self, k);
     for (int i = 0; any && !status && i < self->events->count; i++) status = find_pairs(self, i);
     return status;

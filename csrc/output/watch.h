@@ -1,6 +1,7 @@
 /* Event functions of a run: their values, and what their location needs. */
 #pragma once
 
+#include "../contact/gaps.h"
 #include "../linalg/bracket.h"
 #include "reading.h"
 #include "within_step.h"
@@ -27,6 +28,8 @@ typedef struct zd_watch {
     int occurrences;        /* their number */
     int last;               /* index of the one that ends the run */
     zd_end_rates at_start, at_end;  /* rates at the ends of the step */
+    zd_gaps gaps[2];        /* gaps there; without arrays where no constraint switches */
+    int end_gaps;           /* index of those at the end of the step */
     zd_state end;           /* end of the step, corrected */
     zd_state early, late, mixed;    /* states before and after an event; interpolated */
     int *found;             /* (events,) number of occurrences */
@@ -72,7 +75,9 @@ int zd_watch_correct(zd_stepper *stepper);
 int zd_watch_move(zd_watch *self, double t);
 /* Leaves the end of the step for values within it. Dense output belongs to the step before the corrections at the point. */
 int zd_watch_leave(zd_watch *self);
-/* *occurs <- true if any event may occur in the step to the point, by both ends and by values between them. */
+/* Finds the gaps of contacts at the ends of the step, if there are any. */
+int zd_watch_find_gaps(zd_watch *self);
+/* *occurs <- true if any event may occur in the step to `end`, by both ends and by values between them. */
 int zd_watch_predict(zd_watch *self, int *occurs);
 /* Sets the ends of the step in the points of all events, and the number of samples between them. */
 void zd_watch_span(zd_watch *self);

@@ -11,6 +11,7 @@
 
 #include <math.h>
 
+#include "../contact/phase_system.h"
 #include "../linalg/roots.h"
 #include "../linalg/small.h"
 #include "../step_limits.h"
@@ -108,15 +109,21 @@ static int predict_step(zd_step_loop *loop)
     return status;
 }
 
-/* Largest change of a coordinate in the step, in units of max_move. The state begins with p, or with its independent entries. */
-static double find_move(const zd_step_loop *loop)
+/* Largest change of a coordinate in the step, in units of max_move; with contacts also that of an angle, in units of ZD_LARGEST_TURN. The
+ * state begins with p and v, or with their independent entries. */
+static double find_move(const zd_step_loop *loop, double h)
 {
     const zd_motion *motion = loop->motion;
     const zd_stepper *stepper = loop->stepper;
-    const int begins_with_p = motion->formulation->drifts_from & ZD_PHI, n = begins_with_p ? motion->system.nq : motion->formulation_size / 2;
+    const int begins_with_p = motion->formulation->drifts_from & ZD_PHI, half = motion->formulation_size / 2;
+    const int nq = begins_with_p ? motion->system.nq : half, nv = begins_with_p ? motion->system.nv : half;
+    const int *lengths = begins_with_p && motion->system.lengths ? motion->system.lengths + nq : NULL;
+    const double max_move = loop->settings->max_move, *v = stepper->y + nq;
     double largest = 0;
-    for (int i = 0; i < n; i++) largest = fmax(largest, fabs(stepper->y[i] - stepper->last.y[i]));
-    return largest / loop->settings->max_move;
+    for (int i = 0; max_move > 0 && i < nq; i++) largest = fmax(largest, fabs(stepper->y[i] - stepper->last.y[i]) / max_move);
+    for (int i = 0; zd_has_contacts(motion->point->phase) && i < nv; i++)
+        if (!(lengths && lengths[i])) largest = fmax(largest, h * fabs(v[i]) / ZD_LARGEST_TURN);
+    return largest;
 }
 
 static int estimate(zd_step_loop *loop, const zd_attempt *attempt)
@@ -129,7 +136,7 @@ static int estimate(zd_step_loop *loop, const zd_attempt *attempt)
                                             &control->norm, &lambda_h);
     if (status) return status;
     if (isnan(control->norm)) return ZD_NOT_FINITE;
-    control->move = loop->settings->max_move > 0 ? find_move(loop) : 0;
+    control->move = loop->settings->max_move > 0 || loop->motion->point->phase ? find_move(loop, attempt->h) : 0;
     if (zd_control_accepts(control) && !loop->switching.holds) watch_stiffness(loop, lambda_h);
     return ZD_DONE;
 }
