@@ -94,10 +94,8 @@ static int digits_of(double from, double to)
 /* Cause of many steps. */
 static void describe_shortness(const zd_run *run, char *to, size_t size)
 {
-    const int is_by_move = run->loop.control.is_by_move;
-    if (is_by_move && run->settings.max_move > 0) snprintf(to, size, "max_move = %.3g sets the size of the last of them; a larger value "
-                                                           "takes fewer steps", run->settings.max_move);
-    else if (is_by_move) snprintf(to, size, "angles of a system with contacts must change by at most %g rad in a step", ZD_LARGEST_TURN);
+    if (run->loop.control.is_by_move) snprintf(to, size, "max_move = %.3g sets the size of the last of them; a larger value takes "
+                                               "fewer steps", run->settings.max_move);
     else snprintf(to, size, "the motion changes quickly there, %s", run->stepper.integrator->decay == 0
                   ? "for example by a force that jumps; a smooth force, or events at its jumps, takes fewer steps"
                   : "or the problem is stiff and needs an implicit method, such as 'radau'");
@@ -117,9 +115,8 @@ static void describe_steps(const zd_run *run, char *to, size_t size)
 static void describe_underflow(const zd_run *run, char *to, size_t size)
 {
     const zd_settings *settings = &run->settings;
-    const int is_by_move = run->loop.control.is_by_move && settings->max_move > 0;
-    if (is_by_move) snprintf(to, size, "step size underflow: max_move = %.3g requires steps below the rounding of the time",
-                             settings->max_move);
+    if (run->loop.control.is_by_move) snprintf(to, size, "step size underflow: max_move = %.3g requires steps below the rounding of the time",
+                                               settings->max_move);
     else snprintf(to, size, "step size underflow: rtol = %.3g, atol = %.3g require steps below the rounding of the time", settings->rtol,
                   settings->atol);
 }

@@ -22,6 +22,7 @@ static const double SHARE_OF_MOVE = 0.9;    /* ratio of the intended change of c
 zd_control zd_adaptive_create(zd_arena *arena, const zd_stepper *stepper, double t0)
 {
     return (zd_control){
+        .longest = INFINITY,
         .histogram = zd_step_histogram_create(arena, t0),
         .scale = zd_arena_doubles(arena, stepper->capacity),
         .collapse = zd_collapse_create(arena, stepper->motion->system.nv),
@@ -42,7 +43,7 @@ static void set_scale(zd_step_loop *loop, const double *a, const double *b)
 static double bounded(const zd_step_loop *loop, double h)
 {
     double longest = loop->settings->max_step > 0 ? loop->settings->max_step : INFINITY;
-    return fmin(fmin(h, longest), zd_step_loop_latest(loop) - loop->stepper->t);
+    return fmin(fmin(h, fmin(longest, loop->control.longest)), zd_step_loop_latest(loop) - loop->stepper->t);
 }
 
 /* Size of the first step, from the rate of the state and its change. Times are scaled by the former, so that their unit does not
@@ -109,21 +110,25 @@ static int predict_step(zd_step_loop *loop)
     return status;
 }
 
-/* Largest change of a coordinate in the step, in units of max_move; with contacts also that of an angle, in units of ZD_LARGEST_TURN. The
- * state begins with p and v, or with their independent entries. */
-static double find_move(const zd_step_loop *loop, double h)
+/* Largest change of a coordinate in the step, in units of max_move. The state begins with p, or with its independent entries. */
+static double find_move(const zd_step_loop *loop)
 {
     const zd_motion *motion = loop->motion;
     const zd_stepper *stepper = loop->stepper;
-    const int begins_with_p = motion->formulation->drifts_from & ZD_PHI, half = motion->formulation_size / 2;
-    const int nq = begins_with_p ? motion->system.nq : half, nv = begins_with_p ? motion->system.nv : half;
-    const int *lengths = begins_with_p && motion->system.lengths ? motion->system.lengths + nq : NULL;
-    const double max_move = loop->settings->max_move, *v = stepper->y + nq;
+    const int begins_with_p = motion->formulation->drifts_from & ZD_PHI, n = begins_with_p ? motion->system.nq : motion->formulation_size / 2;
     double largest = 0;
-    for (int i = 0; max_move > 0 && i < nq; i++) largest = fmax(largest, fabs(stepper->y[i] - stepper->last.y[i]) / max_move);
-    for (int i = 0; zd_has_contacts(motion->point->phase) && i < nv; i++)
-        if (!(lengths && lengths[i])) largest = fmax(largest, h * fabs(v[i]) / ZD_LARGEST_TURN);
-    return largest;
+    for (int i = 0; i < n; i++) largest = fmax(largest, fabs(stepper->y[i] - stepper->last.y[i]));
+    return largest / loop->settings->max_move;
+}
+
+/* Longest step in which no angle changes by more than ZD_LARGEST_TURN at the present velocities; INFINITY without contacts. */
+static double find_longest(const zd_motion *motion)
+{
+    const zd_system *system = &motion->system;
+    double fastest = 0;
+    for (int i = 0; zd_has_contacts(motion->point->phase) && i < system->nv; i++)
+        if (!(system->lengths && system->lengths[system->nq + i])) fastest = fmax(fastest, fabs(motion->point->v[i]));
+    return ZD_LARGEST_TURN / fastest;
 }
 
 static int estimate(zd_step_loop *loop, const zd_attempt *attempt)
@@ -136,7 +141,7 @@ static int estimate(zd_step_loop *loop, const zd_attempt *attempt)
                                             &control->norm, &lambda_h);
     if (status) return status;
     if (isnan(control->norm)) return ZD_NOT_FINITE;
-    control->move = loop->settings->max_move > 0 || loop->motion->point->phase ? find_move(loop, attempt->h) : 0;
+    control->move = loop->settings->max_move > 0 ? find_move(loop) : 0;
     if (zd_control_accepts(control) && !loop->switching.holds) watch_stiffness(loop, lambda_h);
     return ZD_DONE;
 }
@@ -169,6 +174,7 @@ static int begin(zd_step_loop *loop)
     if (most && loop->step > most) return ZD_TOO_MANY_STEPS;
     loop->control.norm = 0;
     loop->control.largest_factor = ZD_MAX_FACTOR;
+    loop->control.longest = find_longest(loop->motion);
     const double latest = zd_step_loop_latest(loop);
     loop->control.smallest = 16 * 0x1p-52 * fmax(fabs(loop->stepper->t), isfinite(latest) ? fabs(latest) : 0);
     const int status = loop->switching.count ? zd_switching_begin(loop) : ZD_DONE;

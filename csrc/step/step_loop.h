@@ -70,10 +70,11 @@ typedef struct zd_control { /* control of adaptive steps */
     double h;               /* s: size of the next step */
     double bounded;         /* s: size of the current attempt, before rounding of its end */
     double smallest;        /* s: step size underflow */
+    double longest;         /* s: bound of the size by contacts; INFINITY: none */
     double largest_factor;  /* ratio of the next size to the current one */
     double norm;            /* error estimate of the last attempt, RMS in units of scale; 0: fixed steps */
-    double move;            /* largest change of a coordinate in the last step, in units of the largest allowed; 0: all are */
-    int is_by_move;         /* true if that has set h */
+    double move;            /* largest change of a coordinate in the last step, in units of max_move; 0: max_move is not set */
+    int is_by_move;         /* true if max_move has set h */
     zd_step_histogram histogram;    /* distribution of the steps in time */
     double *scale;          /* (size,): error scale, atol + rtol |y| */
     zd_stiffness stiffness;
