@@ -60,6 +60,6 @@ enum {
 /* ---- events and bifurcations ---- */
 
 #define ZD_LARGEST_TURN 2.0         /* rad: change of an angle in an adaptive step with contacts, whose gaps may be periodic in it */
-#define ZD_NEAR_GAPS 0.5            /* displacement: gaps in a shorter step follow from both ends */
+#define ZD_SMALL_DISPLACEMENT 0.5   /* displacement: the gaps of contacts in a shorter step follow from those at both ends */
 
 #define ZD_TIME_RESOLUTION (4 * 0x1p-52)    /* rounding of times, and final width of a bracket of them, relative to the times */

@@ -57,8 +57,8 @@ typedef struct zd_lane_group {
     const zd_batch *batch;
     const zd_single_run *own;
     const zd_lane_functions *functions;
-    zd_system *system;      /* system of that run; the data of lanes are set here where constraints switch */
-    zd_run *run;            /* run that evaluates starts and checks; it stays in the phase without any group */
+    zd_system *system;      /* full system of that run, whose data become those of a lane where constraints switch */
+    zd_run *run;            /* run that evaluates starts and checks; it stays in the phase in which no group acts */
     void *start;            /* its memory for starts */
     zd_lanes lanes;
     zd_lane_run run_of[ZD_MAX_LANES];
@@ -115,9 +115,9 @@ void zd_lane_group_locate(zd_lane_group *self);
 /* Sets the state of the lane to that at the event that ends its run. */
 void zd_lane_group_go_to_end(zd_lane_group *self, int lane);
 
-/* lane_contacts.c: 1 if no contact can close in the last step of a lane, and there is no other event. */
+/* lane_contacts.c: true if all contacts stay open in the last step of a lane, and the user has no events. */
 int zd_lane_contacts_stay_open(zd_lane_group *self, int lane);
-/* Lets a lane leave if the event that changes its sign is that of a contact; returns 1 if so. */
+/* True if the event at which the search stands is that of a contact; the lane then leaves. */
 int zd_lane_contact_leaves(zd_lane_group *self, int lane);
 
 /* lane_actions.c: number of the occurrence of the event that ends the run; the next one, if it acts. */
@@ -127,7 +127,7 @@ void zd_lane_group_act(zd_lane_group *self);
 
 /* Copies the state y of a lane to p, v. */
 void zd_lane_group_gather(const zd_lane_group *self, int lane, const double *y);
-/* Data of a system with these numbers, for functions of the checking run; and with those of a lane. */
+/* Argument `data` of functions of the checking run, for these numbers of a system; for those of a lane. */
 const void *zd_lane_group_data_of(const zd_lane_group *self, const void *numbers);
 const void *zd_lane_group_data(const zd_lane_group *self, int lane);
 

@@ -1,4 +1,6 @@
-/* Contacts in lanes: steps in which none of them can close have no event to be located, and a run in which one closes leaves. */
+/* Contacts in lanes: a step in which all stay open needs no search for events, and a run in which one closes leaves. */
+#include <math.h>
+
 #include "../step_limits.h"
 #include "group.h"
 
@@ -16,9 +18,9 @@ int zd_lane_contacts_stay_open(zd_lane_group *self, int lane)
     zd_lane_group_gather(self, lane, lanes->y);
     if (!status) status = zd_gaps_find(&run->gaps[1], phase, lanes->t[lane], self->p, self->v);
     zd_lane_store(lanes, lane, lanes->nv, lanes->inverse_unit, self->v);
-    const double distance = zd_gaps_distance(&run->gaps[0], &run->gaps[1], lanes->nv, self->v);
-    if (status || !(distance < ZD_LARGEST_TURN)) self->lanes.leaves[lane] = 1;
-    int stay = distance < ZD_NEAR_GAPS && !zd_lane_group_own_events(self);
+    const double distance = status ? INFINITY : zd_gaps_distance(&run->gaps[0], &run->gaps[1], lanes->nv, self->v);
+    if (!(distance < ZD_LARGEST_TURN)) self->lanes.leaves[lane] = 1;
+    int stay = distance < ZD_SMALL_DISPLACEMENT && !zd_lane_group_own_events(self);
     for (int g = 0; stay && g < phase->full->groups; g++) stay = zd_gap_stays_open(phase, &run->gaps[0], &run->gaps[1], g);
     return stay;
 }

@@ -77,7 +77,7 @@ static void note_located(zd_lane_group *self, int lane)
     zd_lane_search *search = &run->search;
     double *b = &search->occurrence[search->occurrences - 1].bracket.b;
     const int64_t number = *zd_event_samples_count(self->batch, run->number, search->event) + ++search->number;
-    const int is_last = search->is_cut ? zd_acts(self->run->settings.events, search->event)
+    const int is_last = search->is_cut ? zd_acts(self->batch->settings->events, search->event)
                                        : number == zd_lane_last_of(self, run, search->event);
     search->point++;
     if (is_last && zd_is_same_instant(*b, search->end, resolution_of(&self->lanes, lane))) *b = search->end;
@@ -188,7 +188,7 @@ static void find_state(zd_lane_group *self, int lane)
     mix(self, lane, it.b, run->search.mixed);
     zd_event_samples found = {self->batch, run->number};
     zd_event_samples_add(&found, occurrence->event, located->b, self->p, self->v);
-    const zd_events *events = self->run->settings.events;
+    const zd_events *events = self->batch->settings->events;
     const int is_last = *zd_event_samples_count(self->batch, run->number, occurrence->event) == events->terminal[occurrence->event];
     run->search.acts[occurrence->event] = zd_acts(events, occurrence->event);
     if (is_last) run->search.ended = occurrence->event + 1;

@@ -7,7 +7,7 @@
 
 static int64_t entries_of_p(const zd_lane_group *self) { return self->lanes.nq; }
 
-/* Multipliers of all constraints; those of groups, which do not act, are zero. */
+/* Saves the multipliers of all constraints; those of groups are zero, as none acts. */
 static void save_multipliers(const zd_lane_group *self, int lane, int64_t sample)
 {
     const zd_lanes *lanes = &self->lanes;

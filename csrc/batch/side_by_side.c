@@ -90,7 +90,7 @@ static int start_of(const zd_batch *batch, const zd_single_run *own, int64_t num
     return zd_single_run_start(batch, &system, own, number);
 }
 
-/* True if no contact touches, or is behind a shape, at the start of the run. */
+/* True if all contacts are open by more than ZD_TOUCHING at the start of the run. */
 static int is_apart(const zd_lane_group *self)
 {
     const zd_run *run = self->run;
@@ -246,8 +246,8 @@ static void run_all(zd_lane_group *self)
     }
 }
 
-/* Creates the first run that can be, to evaluate starts; those before it are made individually, and fail with their message, or begin
- * with contacts that are closed. */
+/* Creates the first run that can be, to evaluate starts; those before it, which fail or begin with closed contacts, are made
+ * individually. */
 static zd_run *create_first(const zd_batch *batch, const zd_single_run *own, zd_system *system, int64_t *first)
 {
     for (*first = 0; *first < batch->runs && !zd_batch_is_stopped(batch); ++*first) {

@@ -119,7 +119,8 @@ static void create_reading(zd_arena *arena, zd_phase_system *self)
 
 /* ---- closed-form functions ----
  *
- * Those of the full system eliminate the constraints of no group. A phase in which no group acts has them, called with their own data. */
+ * Closed-form functions of the full system eliminate the constraints outside all groups. A phase in which no group acts has the same
+ * constraints, and calls them with the data of the full system. */
 
 static const void *data_of(const void *data) { return ((const zd_phase_system *)data)->full->data; }
 

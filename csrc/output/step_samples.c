@@ -56,18 +56,18 @@ int zd_watch_find_gaps(zd_watch *self)
     return status ? status : zd_gaps_find(&self->gaps[self->end_gaps], phase, end->t, end->p, end->v);
 }
 
-/* Keeps the ends of the step alone in the points of contacts that stay open. */
-static void pass_open(zd_watch *self)
+/* Leaves contacts that stay open without samples within the step. */
+static void skip_open_contacts(zd_watch *self)
 {
     const zd_point *point = self->output->stepper->motion->point;
     const zd_gaps *before = &self->gaps[!self->end_gaps], *after = &self->gaps[self->end_gaps];
-    if (!after->gap || !(zd_gaps_distance(before, after, point->system->nv, point->inverse_unit) < ZD_NEAR_GAPS)) return;
+    if (!after->gap || !(zd_gaps_distance(before, after, point->system->nv, point->inverse_unit) < ZD_SMALL_DISPLACEMENT)) return;
     const int groups = point->phase->full->groups, own = self->events->count - groups;
     for (int g = 0; g < groups; g++)
         if (zd_gap_stays_open(point->phase, before, after, g)) zd_zeros_keep_ends(&self->zeros[own + g], 0);
 }
 
-static int is_searched(const zd_watch *self)
+static int needs_samples(const zd_watch *self)
 {
     int any = 0;
     for (int i = 0; i < self->events->count; i++) any |= self->zeros[i].count > 2;
@@ -252,8 +252,8 @@ int zd_watch_leave(zd_watch *self)
 int zd_watch_predict(zd_watch *self, int *occurs)
 {
     zd_watch_span(self);
-    pass_open(self);
-    int is_known = is_searched(self) && may_predict(self), status = is_known ? predict_all(self, &is_known) : ZD_DONE;
+    skip_open_contacts(self);
+    int is_known = needs_samples(self) && may_predict(self), status = is_known ? predict_all(self, &is_known) : ZD_DONE;
     for (int i = 0; !status && i < self->events->count; i++) *occurs |= occurs_by(self, i, is_known);
     return status;
 }
@@ -291,7 +291,7 @@ static int find_pairs(zd_watch *self, int event)
 int zd_watch_sample(zd_watch *self)
 {
     int status = ZD_DONE;
-    const int any = is_searched(self);
+    const int any = needs_samples(self);
     for (int k = 1; any && !status && k <= ZD_SAMPLES; k++) status = take_sample(self, k);
     for (int i = 0; any && !status && i < self->events->count; i++) status = find_pairs(self, i);
     return status;

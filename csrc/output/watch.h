@@ -28,7 +28,7 @@ typedef struct zd_watch {
     int occurrences;        /* their number */
     int last;               /* index of the one that ends the run */
     zd_end_rates at_start, at_end;  /* rates at the ends of the step */
-    zd_gaps gaps[2];        /* gaps there; without arrays where no constraint switches */
+    zd_gaps gaps[2];        /* gaps of contacts there; NULL arrays: no constraint switches */
     int end_gaps;           /* index of those at the end of the step */
     zd_state end;           /* end of the step, corrected */
     zd_state early, late, mixed;    /* states before and after an event; interpolated */

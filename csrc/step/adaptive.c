@@ -122,11 +122,12 @@ static double find_move(const zd_step_loop *loop)
 }
 
 /* Longest step in which no angle changes by more than ZD_LARGEST_TURN at the present velocities; INFINITY without contacts. */
-static double find_longest(const zd_motion *motion)
+static double find_longest_step(const zd_motion *motion)
 {
     const zd_system *system = &motion->system;
     double fastest = 0;
-    for (int i = 0; zd_has_contacts(motion->point->phase) && i < system->nv; i++)
+    if (!zd_has_contacts(motion->point->phase)) return INFINITY;
+    for (int i = 0; i < system->nv; i++)
         if (!(system->lengths && system->lengths[system->nq + i])) fastest = fmax(fastest, fabs(motion->point->v[i]));
     return ZD_LARGEST_TURN / fastest;
 }
@@ -174,7 +175,7 @@ static int begin(zd_step_loop *loop)
     if (most && loop->step > most) return ZD_TOO_MANY_STEPS;
     loop->control.norm = 0;
     loop->control.largest_factor = ZD_MAX_FACTOR;
-    loop->control.longest = find_longest(loop->motion);
+    loop->control.longest = find_longest_step(loop->motion);
     const double latest = zd_step_loop_latest(loop);
     loop->control.smallest = 16 * 0x1p-52 * fmax(fabs(loop->stepper->t), isfinite(latest) ? fabs(latest) : 0);
     const int status = loop->switching.count ? zd_switching_begin(loop) : ZD_DONE;

@@ -1,7 +1,5 @@
 """Contacts, stops, latches and dry friction against closed forms."""
 
-import math
-
 import numpy as np
 import pytest
 from scipy.special import ellipk
@@ -94,33 +92,6 @@ def test_an_impact_loses_its_impulse_times_the_mean_velocity():
     after = max(0, 2.0 - 0.3 * 1.5 * np.sqrt(2 * G))     # by Coulomb's impulse
     assert sol["ball.velocity.x"][at[-1]] == pytest.approx(after, abs=1e-12)
     assert abs(sol.energy_violation).max() < 1e-9
-
-
-def rotor(height=None):
-    m = zd.Mechanism("rotor", gravity=(0, 0))
-    arm = m.body("arm", 1.0, 0.1)
-    pin = m.revolute("pin", m.ground, arm.point((0, 0)))
-    if height:
-        m.contact("hit", arm.point((1, 0)), m.ground.line((0, -height), (1, -height)), restitution=1.0)
-        m.stop("far", pin.angle, upper=1e3)
-    m.start({arm.angular_velocity: 20.0})
-    return m
-
-
-@pytest.mark.parametrize("settings", [{"rtol": 1e-6}, {"rtol": 1e-3, "formulation": "independent"}, {"step": 0.4}], ids=str)
-def test_a_contact_is_seen_in_steps_of_several_turns(settings):
-    """Without a force the error alone would allow adaptive steps of any number of turns."""
-    sol = zd.simulate(rotor(0.5), 10.0, **settings)
-    first, between = 7 * math.pi / 6 / 20, 4 * math.pi / 3 / 20
-    assert sol.impacts["t"] == pytest.approx(first + between * np.arange(len(sol.impacts)), abs=1e-11)
-    assert len(sol.impacts) == 1 + int((10 - first) / between)
-
-
-@pytest.mark.parametrize("settings", [{"step": 1e-3}, {"rtol": 1e-8, "max_step": 0.01}], ids=str)
-def test_contacts_out_of_reach_cost_no_evaluation(settings):
-    """Their gaps and rates at the ends of a step show that they stay open in it."""
-    far, free = (zd.simulate(each, 0.1, closed_form=False, **settings) for each in (rotor(1.5), rotor()))
-    assert far.stats["evaluations"] <= free.stats["evaluations"] + 10
 
 
 def test_a_pendulum_rebounds_from_a_wall_at_multiples_of_half_its_period():

@@ -49,7 +49,7 @@ def ensemble(system: SystemLike | Callable[..., SystemLike], t_span: float | tup
 
     The core makes runs without Python where it can. Several at once in SIMD lanes: if the system is evaluated in closed form,
     outputs are coordinates, velocities and multipliers, output times are known in advance, and events are names or expressions;
-    events that set inputs need `t_eval`, and a system of `symbolic`. Runs in which a contact closes leave the lanes.
+    events that set inputs need `t_eval`, and a system of `symbolic`. A run leaves the lanes where a contact closes.
     Individually, assembly and measures included: planar mechanisms with varied numbers, without user functions, wishes and
     drives of constant speed. These results agree with `simulate` to rounding. All other runs are made by `simulate`; `repr`
     gives the number of each kind.

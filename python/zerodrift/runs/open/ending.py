@@ -52,13 +52,13 @@ def solution_of(ready: Prepared, run: gateway.Run, record: Any, results: gateway
 
 def solution_of_rows(system: BaseSystem, span: tuple[float, float], chosen: dict[str, Any], record: gateway.Record,
                      results: gateway.Results, seconds: float, status: int, message: str,
-                     events: tuple[tuple[np.ndarray, ...], ...] | None, phases: Sequence[Any]) -> Solution:
-    """Solution of a completed run that the core made in a batch; `events` are the t, p and v of its events, `phases` as in
-    `gateway.Run.transitions`.
+                     events: tuple[tuple[np.ndarray, ...], ...] | None, changes: Sequence[Any]) -> Solution:
+    """Solution of a completed run that the core made in a batch; `events` are the t, p and v of its events, `changes` of
+    phase as in `gateway.Run.transitions`.
     """
     return Solution._of_run(functools.partial(_arrays_and_stats, record, results, seconds, None, system, chosen),
                             status=status, success=True, message=message, settings=chosen, system=system, t_span=span,
-                            jumps=jumps_of((), (), ()), transitions=transitions(phases),
+                            jumps=jumps_of((), (), ()), transitions=transitions(changes),
                             **({} if events is None else dict(zip(EVENTS, events, strict=True))))
 
 
